@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads TrackMate's XML: its model file (versions 2 to 8) and its "Export tracks to XML".
+
+Positions there are in the film's units, pixel-centre = whole coordinate times pixel size; ours are in pixels.
+A track of TrackMate is a graph; where it splits or merges it is cut, and each unbranched part is a track of its own.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+from defusedxml import DefusedXmlException
+from defusedxml.ElementTree import parse as parse_xml
+
+from memtrack.errors import InvalidInputError
+from memtrack.film import Calibration
+from memtrack.tracks import UNLINKED, Motility, TrackTable
+
+_PIXEL_UNITS = ("pixel", "pixels", "px")
+_MICROMETRES = {"micrometer": 1.0, "micrometre": 1.0, "micron": 1.0, "microns": 1.0, "um": 1.0, "µm": 1.0, "μm": 1.0}
+_MICROMETRES |= {"nm": 1e-3, "nanometer": 1e-3, "mm": 1e3, "millimeter": 1e3}
+_SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
+
+
+@dataclass(frozen=True, slots=True)
+class _Spot:
+    frame: int
+    x: float
+    y: float
+    radius: float
+    quality: float
+    interpolated: bool
+    motility: int
+
+
+def read(path: Path, calibration: Calibration) -> TrackTable:
+    """Read the visible spots and the tracks that pass TrackMate's track filter.
+
+    A box is the square around a spot's radius. Spots without a track get the id UNLINKED.
+
+    Raises:
+        InvalidInputError: the file cannot be read, or is no XML of TrackMate.
+        ValueError: an impossible value, or positions in micrometres and no pixel size anywhere.
+    """
+    try:
+        root = parse_xml(path, forbid_dtd=True).getroot()
+    except OSError as error:
+        raise InvalidInputError(f"cannot read {path}: {error.strerror}; check the path") from error
+    except DefusedXmlException as error:
+        raise InvalidInputError(f"{path} has a document type or entities, which TrackMate never writes") from error
+    except ElementTree.ParseError as error:
+        raise InvalidInputError(f"{path} is not well-formed XML ({error}); export it from TrackMate again") from error
+    if root.tag == "TrackMate":
+        return _read_model(root, calibration)
+    if root.tag == "Tracks":
+        return _read_export(root, calibration)
+    raise ValueError(f"the root element is <{root.tag}>, expected <TrackMate> or <Tracks>")
+
+
+def _read_model(root: Element, calibration: Calibration) -> TrackTable:
+    model = root.find("Model")
+    if model is None:
+        raise ValueError("no <Model> element; save the file in TrackMate after detection")
+    image = root.find("Settings/ImageData")
+    if image is not None:
+        unit_size, interval = _number(image, "pixelwidth"), _number(image, "timeinterval")
+    else:
+        unit_size, interval = math.nan, math.nan
+    scale, found = _scale(model.get("spatialunits", "pixel"), unit_size, calibration)
+    seconds = _SECONDS.get(model.get("timeunits", ""), math.nan) * interval
+    spots = {}
+    for spot in model.iterfind("AllSpots/SpotsInFrame/Spot"):
+        if spot.get("VISIBILITY", "1") != "0":
+            spots[_whole(spot, "ID")] = _Spot(
+                _whole(spot, "FRAME"),
+                _number(spot, "POSITION_X") / scale,
+                _number(spot, "POSITION_Y") / scale,
+                _number(spot, "RADIUS", math.nan) / scale,
+                _number(spot, "QUALITY", math.nan),
+                _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0,
+                int(_number(spot, "MEMTRACK_MOTILITY", float(Motility.UNKNOWN))),
+            )
+    kept = {track.get("TRACK_ID") for track in model.iterfind("FilteredTracks/TrackID")}
+    edges = [
+        (_whole(edge, "SPOT_SOURCE_ID"), _whole(edge, "SPOT_TARGET_ID"))
+        for track in model.iterfind("AllTracks/Track")
+        if track.get("TRACK_ID") in kept
+        for edge in track.iterfind("Edge")
+    ]
+    track_of = _unbranched(spots, edges)
+    rows = list(spots.values())
+    return TrackTable.of(
+        [spot.frame for spot in rows],
+        [track_of.get(spot_id, UNLINKED) for spot_id in spots],
+        [spot.x for spot in rows],
+        [spot.y for spot in rows],
+        width=[2 * spot.radius for spot in rows],
+        height=[2 * spot.radius for spot in rows],
+        scores=[spot.quality for spot in rows],
+        interpolated=[spot.interpolated for spot in rows],
+        motility=[spot.motility for spot in rows],
+        calibration=Calibration(found, seconds if seconds > 0 else None),
+    )
+
+
+def _unbranched(spots: dict[int, _Spot], edges: list[tuple[int, int]]) -> dict[int, int]:
+    """Number the unbranched parts of the graph from 0: which track each linked spot belongs to."""
+    after: dict[int, list[int]] = defaultdict(list)
+    before: dict[int, list[int]] = defaultdict(list)
+    for pair in edges:
+        if all(spot in spots for spot in pair):
+            source, target = sorted(pair, key=lambda spot: spots[spot].frame)
+            if spots[source].frame == spots[target].frame:
+                raise ValueError(f"spots {source} and {target} of frame {spots[source].frame} are linked")
+            after[source].append(target)
+            before[target].append(source)
+    track_of: dict[int, int] = {}
+    tracks = itertools.count()
+    for spot in sorted(set(after) | set(before), key=lambda spot: (spots[spot].frame, spot)):
+        goes_on = len(before[spot]) == 1 and len(after[before[spot][0]]) == 1
+        track_of[spot] = track_of[before[spot][0]] if goes_on else next(tracks)
+    return track_of
+
+
+def _read_export(root: Element, calibration: Calibration) -> TrackTable:
+    scale, found = _scale(root.get("spaceUnits", "pixel"), math.nan, calibration)
+    seconds = _SECONDS.get(root.get("timeUnits", ""), math.nan) * _number(root, "frameInterval", math.nan)
+    points = [
+        (_whole(point, "t"), track, _number(point, "x") / scale, _number(point, "y") / scale)
+        for track, particle in enumerate(root.iterfind("particle"))
+        for point in particle.iterfind("detection")
+    ]
+    frames, ids, x, y = zip(*points, strict=True) if points else ((), (), (), ())
+    return TrackTable.of(frames, ids, x, y, calibration=Calibration(found, seconds if seconds > 0 else None))
+
+
+def _scale(unit: str, unit_size: float, calibration: Calibration) -> tuple[float, float | None]:
+    """Units a pixel, and the pixel's size in micrometres if it is known."""
+    if unit.lower() in _PIXEL_UNITS:
+        return (unit_size if unit_size > 0 else 1.0), None
+    in_micrometres = _MICROMETRES.get(unit.lower())
+    if unit_size > 0:
+        return unit_size, None if in_micrometres is None else unit_size * in_micrometres
+    if calibration.pixel_size_um is not None and in_micrometres is not None:
+        return calibration.pixel_size_um / in_micrometres, calibration.pixel_size_um
+    raise ValueError(f"positions are in {unit!r} and the file has no pixel size; give --pixel-size-um")
+
+
+def _number(element: Element, name: str, default: float | None = None) -> float:
+    word = element.get(name)
+    if word is None and default is not None:
+        return default
+    try:
+        return float(word or "")
+    except ValueError:
+        raise ValueError(f"<{element.tag}> has {name}={word!r}, expected a number") from None
+
+
+def _whole(element: Element, name: str) -> int:
+    value = _number(element, name)
+    if not math.isfinite(value) or value != round(value):
+        raise ValueError(f"<{element.tag}> has {name}={element.get(name)!r}, expected a whole number")
+    return round(value)
