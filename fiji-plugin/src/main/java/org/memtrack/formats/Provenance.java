@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.formats;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * Where a result comes from: enough to repeat the run. Written as JSON beside the tracks.
+ *
+ * @param created when, ISO 8601 in UTC
+ * @param software name to version: the plug-in, the server, ImageJ, Java, the system
+ * @param film name to value: title, file, sha256, width, height, frames, pixel size and frame interval
+ * @param model name to value: name, version, sha256, engine, thresholds; empty when nothing was detected
+ * @param settings name to value: all that was set for this run, defaults included
+ * @param counts name to count: what the detector found, what each filter dropped, tracks and points
+ * @param warnings what the user was told, one sentence each
+ */
+public record Provenance(
+        String created,
+        Map<String, String> software,
+        Map<String, Object> film,
+        Map<String, Object> model,
+        Map<String, Object> settings,
+        Map<String, Long> counts,
+        List<String> warnings) {
+
+    /** Writes it as JSON, all or nothing. */
+    public void write(Path target) throws IOException {
+        throw new UnsupportedOperationException("To come");
+    }
+
+    /**
+     * Reads what {@link #write} wrote.
+     *
+     * @throws FormatException when the file is no provenance
+     */
+    public static Provenance read(Path source) throws IOException {
+        throw new UnsupportedOperationException("To come");
+    }
+}

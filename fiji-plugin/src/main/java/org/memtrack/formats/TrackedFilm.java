@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.formats;
+
+import java.util.List;
+import org.memtrack.detection.FrameDetections;
+import org.memtrack.motility.MotilityAnalysis;
+import org.memtrack.motility.TrackMotility;
+import org.memtrack.tracking.Track;
+import org.memtrack.video.FilmInfo;
+
+/**
+ * The result of a run: what the writers write.
+ *
+ * @param film the film
+ * @param tracks its tracks
+ * @param motility of each track, in the same order
+ */
+public record TrackedFilm(FilmInfo film, List<Track> tracks, List<TrackMotility> motility) {
+    public TrackedFilm {
+        tracks = List.copyOf(tracks);
+        motility = List.copyOf(motility);
+        if (tracks.size() != motility.size()) {
+            throw new IllegalArgumentException(
+                    "%d tracks but motility of %d".formatted(tracks.size(), motility.size()));
+        }
+    }
+
+    /**
+     * Tracks with their motility.
+     *
+     * @param frames what the detector said, for the drift of the scene; may be empty
+     */
+    public static TrackedFilm of(FilmInfo film, List<Track> tracks, List<FrameDetections> frames) {
+        return new TrackedFilm(film, tracks, MotilityAnalysis.analyse(film, tracks, frames));
+    }
+}
