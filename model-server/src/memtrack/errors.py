@@ -9,9 +9,11 @@ MemtrackError
 ├── ModelCorruptError        a model's files do not match its card
 ├── EngineUnavailableError   the computing library a model needs is not installed
 ├── ResourceLimitError       the film would not fit the limits on size, memory or disk
+├── IdleError                the client went silent in the middle of a film
+├── ShutdownError            the server ends while a film is at work
 └── CancelledError           the caller no longer wants the result
 
-`memtrack.service` maps each class to one gRPC status; the command line prints the message and ends with code 2.
+`memtrack.status` maps each class to one gRPC status; the command line prints the message and ends with code 2.
 """
 
 
@@ -45,6 +47,14 @@ class EngineUnavailableError(MemtrackError):
 
 class ResourceLimitError(MemtrackError):
     """The film would not fit the limits on size, memory or disk."""
+
+
+class IdleError(MemtrackError):
+    """The client went silent in the middle of a film."""
+
+
+class ShutdownError(MemtrackError):
+    """The server ends while a film is at work."""
 
 
 class CancelledError(MemtrackError):
