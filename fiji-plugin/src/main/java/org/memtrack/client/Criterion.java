@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.client;
+
+/** How the thresholds of the levels were chosen on the validation films (paper section "False Positive Pruner"). */
+public enum Criterion {
+    MAXIMUM_PRECISION("maximum precision"),
+    MAXIMUM_F1("maximum F1");
+
+    private final String label;
+
+    Criterion(String label) {
+        this.label = label;
+    }
+
+    /** Name in dialogs and macros. */
+    public String label() {
+        return label;
+    }
+}

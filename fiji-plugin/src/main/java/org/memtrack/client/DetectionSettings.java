@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.client;
+
+import java.util.regex.Pattern;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.video.RegionMask;
+
+/**
+ * How to detect in a film.
+ *
+ * @param model name of the model, [a-z0-9_.-]{1,64}; empty for the server's default model
+ * @param modelVersion version of the model; empty for its newest
+ * @param criterion which of the model's stored thresholds to use
+ * @param thresholds thresholds that take the place of the criterion's; null to use the criterion's
+ * @param maxSizePx boxes wider or taller than this are dropped, pixels at the model's scale; null for the model's own (35
+ *     in the paper)
+ * @param nmsIou of two boxes whose intersection over union exceeds this, in (0, 1], the weaker is dropped; null for the
+ *     model's own (0.7 in the paper)
+ * @param stabilise whether to measure and undo the drift of the stage before the temporal median
+ * @param cellLengthPx length of a cell as it looks in this film, in pixels, for films without a pixel size; null when
+ *     not known
+ * @param region where to report detections; null for everywhere
+ */
+public record DetectionSettings(
+        String model,
+        String modelVersion,
+        Criterion criterion,
+        @Nullable Thresholds thresholds,
+        @Nullable Double maxSizePx,
+        @Nullable Double nmsIou,
+        boolean stabilise,
+        @Nullable Double cellLengthPx,
+        @Nullable RegionMask region) {
+
+    /** The default model, at maximum precision, over the whole film. */
+    public static final DetectionSettings DEFAULTS =
+            new DetectionSettings("", "", Criterion.MAXIMUM_PRECISION, null, null, null, true, null, null);
+
+    private static final Pattern NAME = Pattern.compile("[a-z0-9_.-]{0,64}");
+
+    public DetectionSettings {
+        if (!NAME.matcher(model).matches()) {
+            throw new IllegalArgumentException(
+                    "A model's name has 1 to 64 of a-z, 0-9, '_', '.' and '-', not \"%s\"".formatted(model));
+        }
+        checkPositive("greatest size", maxSizePx);
+        checkPositive("overlap", nmsIou);
+        checkPositive("cell length", cellLengthPx);
+        if (nmsIou != null && nmsIou > 1) {
+            throw new IllegalArgumentException("The overlap must lie in 0 to 1, not " + nmsIou);
+        }
+    }
+
+    /** The same settings, reporting only inside a region. */
+    public DetectionSettings withRegion(@Nullable RegionMask newRegion) {
+        return new DetectionSettings(
+                model, modelVersion, criterion, thresholds, maxSizePx, nmsIou, stabilise, cellLengthPx, newRegion);
+    }
+
+    private static void checkPositive(String name, @Nullable Double value) {
+        if (value != null && !(value > 0 && Double.isFinite(value))) {
+            throw new IllegalArgumentException("The %s must be a positive number, not %s".formatted(name, value));
+        }
+    }
+}

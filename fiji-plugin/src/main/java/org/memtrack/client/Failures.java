@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.client;
+
+import io.grpc.Status;
+import org.memtrack.detection.DetectorException;
+
+/** Turns the status of a failed call into one sentence for the user. */
+final class Failures {
+    private Failures() {}
+
+    static DetectorException of(Status status) {
+        String said = status.getDescription() == null ? "" : status.getDescription();
+        String sentence = switch (status.getCode()) {
+            // The server's own sentences.
+            case INVALID_ARGUMENT, NOT_FOUND, RESOURCE_EXHAUSTED, FAILED_PRECONDITION ->
+                said.isBlank()
+                        ? "The server refused the film (%s) and did not say why.".formatted(status.getCode())
+                        : said;
+            case UNAUTHENTICATED, PERMISSION_DENIED ->
+                "The server did not accept our token: for a server given"
+                        + " by its address, set MEMTRACK_TOKEN to the token it was started with.";
+            case UNAVAILABLE ->
+                "The connection to the server broke: it was ended or has crashed; run again,"
+                        + " and if that fails too, use \"MEMTrack Check Installation\" (%s).".formatted(said);
+            case DEADLINE_EXCEEDED ->
+                "The server did not answer in time: the computer may be too busy; run"
+                        + " again, or restart ImageJ to start a new server.";
+            case UNIMPLEMENTED ->
+                "What answers at this address is no MEMTrack server, or one of another"
+                        + " version: check the address, or update both sides.";
+            default ->
+                "The server failed (%s: %s); please report this with the output of".formatted(status.getCode(), said)
+                        + " \"MEMTrack Check Installation\".";
+        };
+        return new DetectorException(sentence, status.asRuntimeException());
+    }
+}
