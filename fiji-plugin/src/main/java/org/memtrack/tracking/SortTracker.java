@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.tracking;
 
+import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 import java.util.concurrent.CancellationException;
 import java.util.function.BooleanSupplier;
 import java.util.function.DoubleConsumer;
 import org.memtrack.detection.FrameDetections;
 
-/** Joins the detections of a film into tracks (paper section "Interpolated Tracker"). */
+/**
+ * Joins the detections of a film into tracks: SORT, interpolation and the track length filter (paper sections
+ * "Interpolated Tracker" and "Track Length Filter").
+ */
 public final class SortTracker {
     private final SortSettings settings;
 
@@ -31,6 +36,58 @@ public final class SortTracker {
      * @throws IllegalArgumentException when the frames are not in ascending order
      */
     public List<Track> track(List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
-        throw new UnsupportedOperationException("To come with " + settings);
+        Sort sort = new Sort(settings);
+        int expected = frames.isEmpty() ? 0 : frames.get(0).frame();
+        for (int i = 0; i < frames.size(); i++) {
+            FrameDetections frame = frames.get(i);
+            if (frame.frame() < expected) {
+                throw new IllegalArgumentException(
+                        "Frame %d comes after frame %d".formatted(frame.frame(), expected - 1));
+            }
+            for (; expected < frame.frame(); expected++) {
+                stepUnless(cancelled, sort, new FrameDetections(expected, List.of()));
+            }
+            stepUnless(cancelled, sort, frame);
+            expected++;
+            progress.accept((i + 1.0) / frames.size());
+        }
+        return finish(sort.tracklets());
+    }
+
+    private static void stepUnless(BooleanSupplier cancelled, Sort sort, FrameDetections frame) {
+        if (cancelled.getAsBoolean()) {
+            throw new CancellationException("Tracking was cancelled at frame " + frame.frame());
+        }
+        sort.step(frame);
+    }
+
+    private List<Track> finish(List<Tracklet> tracklets) {
+        List<List<TrackPoint>> kept = tracklets.stream()
+                .filter(this::hasHitsEnough)
+                .map(this::pointsOf)
+                .filter(this::isLongEnough)
+                .sorted(Comparator.comparingInt(points -> points.get(0).frame()))
+                .toList();
+        List<Track> tracks = new ArrayList<>();
+        for (List<TrackPoint> points : kept) {
+            tracks.add(new Track(tracks.size(), points));
+        }
+        return tracks;
+    }
+
+    private boolean hasHitsEnough(Tracklet tracklet) {
+        return settings.interpolation() == Interpolation.AUTHORS || tracklet.hits() >= settings.minimumHits();
+    }
+
+    private List<TrackPoint> pointsOf(Tracklet tracklet) {
+        return switch (settings.interpolation()) {
+            case FILL_GAPS -> GapFilling.fill(tracklet.points());
+            case AUTHORS -> tracklet.points();
+        };
+    }
+
+    private boolean isLongEnough(List<TrackPoint> points) {
+        return !points.isEmpty()
+                && points.get(points.size() - 1).frame() - points.get(0).frame() + 1 >= settings.minimumTrackLength();
     }
 }

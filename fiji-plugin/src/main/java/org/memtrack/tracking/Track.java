@@ -4,10 +4,11 @@ package org.memtrack.tracking;
 import java.util.List;
 
 /**
- * One bacterium or microrobot through consecutive frames.
+ * One bacterium or microrobot from frame to frame.
  *
  * @param id number of the track, from 0, unique within a film
- * @param points at least one, one a frame, without a gap, in order of frame
+ * @param points at least one, at most one a frame, in order of frame. With {@link Interpolation#FILL_GAPS} none is
+ *     missing between the first and the last; with {@link Interpolation#AUTHORS} some may be, as in SORT
  */
 public record Track(int id, List<TrackPoint> points) {
     public Track {
@@ -16,7 +17,7 @@ public record Track(int id, List<TrackPoint> points) {
         }
         points = List.copyOf(points);
         for (int i = 1; i < points.size(); i++) {
-            if (points.get(i).frame() != points.get(i - 1).frame() + 1) {
+            if (points.get(i).frame() <= points.get(i - 1).frame()) {
                 throw new IllegalArgumentException("Track %d steps from frame %d to frame %d"
                         .formatted(id, points.get(i - 1).frame(), points.get(i).frame()));
             }
@@ -31,8 +32,8 @@ public record Track(int id, List<TrackPoint> points) {
         return points.get(points.size() - 1).frame();
     }
 
-    /** Length in frames, interpolated ones included. */
+    /** Frames from the first to the last, both included. */
     public int length() {
-        return points.size();
+        return lastFrame() - firstFrame() + 1;
     }
 }

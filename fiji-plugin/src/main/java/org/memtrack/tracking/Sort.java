@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.tracking;
+
+import java.util.ArrayList;
+import java.util.List;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
+import org.memtrack.tracking.Matching.Pair;
+
+/**
+ * SORT, frame by frame: predict, match, update, begin and end tracklets.
+ *
+ * <p>Bewley et al. 2016, "Simple online and realtime tracking". A tracklet gets the points that can be told at once; gaps
+ * are filled afterwards.
+ */
+final class Sort {
+    private final SortSettings settings;
+    private final MotionModel model = MotionModel.SORT;
+    private final OverlapAssociation association;
+    private final List<Tracklet> tracklets = new ArrayList<>();
+    private final List<Tracklet> growing = new ArrayList<>();
+    private int framesSeen;
+
+    Sort(SortSettings settings) {
+        this.settings = settings;
+        this.association = new OverlapAssociation(settings.iouGate());
+    }
+
+    /** Takes the next frame, also one without detections. */
+    void step(FrameDetections frame) {
+        framesSeen++;
+        growing.forEach(Tracklet::predict);
+        growing.removeIf(tracklet -> !tracklet.state().isBox());
+        List<Detection> unmatched = match(frame.detections());
+        for (Detection detection : unmatched) {
+            Tracklet begun = new Tracklet(detection, model);
+            tracklets.add(begun);
+            growing.add(begun);
+        }
+        growing.forEach(tracklet -> report(tracklet, frame.frame()));
+        growing.removeIf(tracklet -> tracklet.framesWithoutDetection() > settings.maximumAge());
+    }
+
+    /** All tracklets so far, in the order in which they began. */
+    List<Tracklet> tracklets() {
+        return tracklets;
+    }
+
+    private List<Detection> match(List<Detection> detections) {
+        boolean[] matched = new boolean[detections.size()];
+        List<Pair> pairs = association.match(
+                growing.stream().map(tracklet -> tracklet.state().box()).toList(), detections);
+        for (Pair pair : pairs) {
+            growing.get(pair.track()).update(detections.get(pair.detection()));
+            matched[pair.detection()] = true;
+        }
+        List<Detection> unmatched = new ArrayList<>();
+        for (int i = 0; i < matched.length; i++) {
+            if (!matched[i]) {
+                unmatched.add(detections.get(i));
+            }
+        }
+        return unmatched;
+    }
+
+    private void report(Tracklet tracklet, int frame) {
+        Detection detection = tracklet.detection();
+        switch (settings.interpolation()) {
+            case FILL_GAPS -> {
+                if (detection != null) {
+                    tracklet.add(new TrackPoint(frame, detection.box(), detection));
+                }
+            }
+            case AUTHORS -> {
+                // The last of the frames that a track survives without a detection is not reported, in SORT neither.
+                boolean recent = detection != null || tracklet.framesWithoutDetection() < settings.maximumAge();
+                boolean sure = tracklet.hitStreak() >= settings.minimumHits() || framesSeen <= settings.minimumHits();
+                if (recent && sure) {
+                    tracklet.add(new TrackPoint(frame, tracklet.state().box(), detection));
+                }
+            }
+        }
+    }
+}
