@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * A Python to start the server with.
+ *
+ * @param command program and its first arguments, for example "py" and "-3"
+ * @param origin why it was chosen, for the user, for example "of MEMTRACK_PYTHON"
+ * @param chosen whether the user named it, so that nothing else may stand in for it
+ * @param isolated whether it is an environment of ours, which the user's Python settings must not reach into
+ */
+record Interpreter(List<String> command, String origin, boolean chosen, boolean isolated) {
+    Interpreter {
+        command = List.copyOf(command);
+    }
+
+    /** As the user may read it. */
+    String describe() {
+        return String.join(" ", command) + " (" + origin + ")";
+    }
+
+    /** A builder for a process of this Python with further arguments; its environment fits this Python. */
+    ProcessBuilder process(String... arguments) {
+        List<String> all = new ArrayList<>(command);
+        all.addAll(List.of("-X", "utf8"));
+        all.addAll(List.of(arguments));
+        ProcessBuilder builder = new ProcessBuilder(all);
+        builder.environment().put("PYTHONUNBUFFERED", "1");
+        // A file in the working folder must not pass for a module (Python 3.11 and newer).
+        builder.environment().put("PYTHONSAFEPATH", "1");
+        if (isolated) {
+            builder.environment().remove("PYTHONPATH");
+            builder.environment().remove("PYTHONHOME");
+            builder.environment().put("PYTHONNOUSERSITE", "1");
+        }
+        return builder;
+    }
+}

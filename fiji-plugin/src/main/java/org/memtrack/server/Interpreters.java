@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.File;
+import java.nio.file.Files;
+import java.nio.file.InvalidPathException;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.Optional;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.detection.DetectorException;
+
+/** Where Pythons are looked for. */
+final class Interpreters {
+    private static final List<String> NAMES =
+            List.of("python3", "python", "py", "python3.14", "python3.13", "python3.12", "python3.11", "python3.10");
+
+    private Interpreters() {}
+
+    /**
+     * Pythons that may start the server, best first: the one given, or that of MEMTRACK_PYTHON, or the environment made
+     * by our installer followed by those on the path.
+     *
+     * @throws DetectorException when the one that was named does not exist
+     */
+    static List<Interpreter> candidates(@Nullable Path given, Map<String, String> environment, Path dataFolder) {
+        if (given != null) {
+            return List.of(named(given, "as given"));
+        }
+        String named = environment.getOrDefault("MEMTRACK_PYTHON", "");
+        if (!named.isBlank()) {
+            return List.of(named(Path.of(named), "named by MEMTRACK_PYTHON"));
+        }
+        List<Interpreter> found = new ArrayList<>();
+        PythonEnvironment.installed(dataFolder).ifPresent(installed -> found.add(installed.interpreter()));
+        found.addAll(onPath(environment));
+        return found;
+    }
+
+    /** Pythons on the path, each name once. */
+    static List<Interpreter> onPath(Map<String, String> environment) {
+        String path = environment.getOrDefault("PATH", environment.getOrDefault("Path", ""));
+        return NAMES.stream()
+                .flatMap(name -> find(name, path).stream())
+                .map(file -> new Interpreter(
+                        file.getFileName().toString().matches("py(\\.exe)?")
+                                ? List.of(file.toString(), "-3")
+                                : List.of(file.toString()),
+                        "on the path",
+                        false,
+                        false))
+                .toList();
+    }
+
+    private static Interpreter named(Path python, String origin) {
+        if (!Files.isRegularFile(python)) {
+            throw new DetectorException(
+                    "There is no Python at %s, %s: give the path of the interpreter itself, for example %s."
+                            .formatted(python, origin, windows() ? "C:\\...\\python.exe" : "/.../bin/python"));
+        }
+        return new Interpreter(List.of(python.toAbsolutePath().toString()), origin, true, false);
+    }
+
+    private static Optional<Path> find(String name, String path) {
+        String file = windows() ? name + ".exe" : name;
+        return Stream.of(path.split(Pattern.quote(File.pathSeparator)))
+                .filter(folder -> !folder.isBlank())
+                .flatMap(folder -> resolve(folder, file).stream())
+                .filter(Files::isExecutable)
+                .filter(Files::isRegularFile)
+                .findFirst();
+    }
+
+    private static Optional<Path> resolve(String folder, String file) {
+        try {
+            return Optional.of(Path.of(folder, file).toAbsolutePath());
+        } catch (InvalidPathException e) {
+            return Optional.empty();
+        }
+    }
+
+    static boolean windows() {
+        return System.getProperty("os.name", "").toLowerCase(Locale.ROOT).startsWith("windows");
+    }
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.CancellationException;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.ScheduledFuture;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.locks.ReentrantLock;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.client.DetectionClient;
+import org.memtrack.client.Progress;
+import org.memtrack.client.ServerInfo;
+import org.memtrack.detection.DetectorException;
+
+/** The one server of our own in an ImageJ session: started when first wanted, shared, ended when idle or at the end. */
+final class ManagedServer {
+    private final Duration idleLimit;
+    private final ReentrantLock lock = new ReentrantLock();
+    private final ScheduledExecutorService timer = Executors.newSingleThreadScheduledExecutor(task -> {
+        Thread thread = new Thread(task, "memtrack-server-idle");
+        thread.setDaemon(true);
+        return thread;
+    });
+    private @Nullable Running running;
+    private @Nullable ScheduledFuture<?> ending;
+
+    private record Running(LocalServer server, DetectionClient client, ServerInfo info, List<Object> users) {}
+
+    ManagedServer(Duration idleLimit) {
+        this.idleLimit = idleLimit;
+    }
+
+    /** A connection to the running server if it is one of the candidates, or to a new one of the best that starts. */
+    ServerConnection acquire(List<Interpreter> candidates, Progress progress) {
+        lock(progress);
+        try {
+            Running current = running;
+            if (current == null || !candidates.contains(current.server.interpreter()) || !answers(current)) {
+                current = start(candidates, progress);
+            }
+            return use(current);
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    /** Ends the server, also under its users. */
+    void end() {
+        lock.lock();
+        try {
+            if (running != null) {
+                running.client.close();
+                running.server.end();
+                running = null;
+            }
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    private Running start(List<Interpreter> candidates, Progress progress) {
+        // Users of a server that died, or runs on another Python, would only learn it later.
+        end();
+        List<String> reasons = new ArrayList<>();
+        for (Interpreter candidate : candidates) {
+            try {
+                LocalServer server = LocalServer.start(candidate, progress);
+                running = connect(server);
+                return running;
+            } catch (StartException e) {
+                reasons.add(e.getMessage());
+            }
+        }
+        throw new DetectorException(reasons.isEmpty()
+                ? "No Python was found: install Python 3.10 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
+                        + " Install Python Environment."
+                : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
+                                .formatted(String.join("; ", reasons))
+                        + " Environment, or name a Python that has MEMTrack.");
+    }
+
+    private static Running connect(LocalServer server) {
+        DetectionClient client = server.connect();
+        try {
+            return new Running(server, client, client.info(), new ArrayList<>());
+        } catch (RuntimeException e) {
+            client.close();
+            server.end();
+            throw e;
+        }
+    }
+
+    private static boolean answers(Running current) {
+        if (!current.server.alive()) {
+            return false;
+        }
+        try {
+            current.client.info();
+            return true;
+        } catch (DetectorException e) {
+            return false;
+        }
+    }
+
+    private ServerConnection use(Running current) {
+        Object user = new Object();
+        current.users.add(user);
+        if (ending != null) {
+            ending.cancel(false);
+            ending = null;
+        }
+        return new ServerConnection(
+                current.client, current.info, current.server.interpreter().describe(), () -> release(current, user));
+    }
+
+    private void release(Running used, Object user) {
+        lock.lock();
+        try {
+            if (used.users.remove(user) && used.users.isEmpty() && used == running) {
+                ending = timer.schedule(() -> endIfIdle(used), idleLimit.toMillis(), TimeUnit.MILLISECONDS);
+            }
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    private void endIfIdle(Running idle) {
+        lock.lock();
+        try {
+            if (idle == running && idle.users.isEmpty()) {
+                end();
+            }
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    private void lock(Progress progress) {
+        try {
+            while (!lock.tryLock(100, TimeUnit.MILLISECONDS)) {
+                progress.throwIfCancelled();
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new CancellationException("Interrupted.");
+        }
+    }
+}

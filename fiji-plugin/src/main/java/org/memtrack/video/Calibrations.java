@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.video;
+
+import ij.measure.Calibration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.OptionalDouble;
+
+/**
+ * Pixel size and frame interval of a film, with what the user should know about them.
+ *
+ * @param pixelSizeMicrometres empty when nobody says
+ * @param frameIntervalSeconds empty when nobody says
+ * @param warnings one sentence each
+ */
+record Calibrations(
+        OptionalDouble pixelSizeMicrometres, OptionalDouble frameIntervalSeconds, List<String> warnings) {
+
+    /** What the user said, and where they said nothing, what the image says. */
+    static Calibrations of(Calibration calibration, FilmOptions options) {
+        List<String> warnings = new ArrayList<>();
+        OptionalDouble pixelSize = options.pixelSizeMicrometres();
+        if (pixelSize.isEmpty()) {
+            pixelSize = Units.pixelSizeMicrometres(calibration);
+            if (pixelSize.isPresent() && Math.abs(calibration.pixelHeight / calibration.pixelWidth - 1) > 0.01) {
+                warnings.add(String.format(
+                        Locale.ROOT,
+                        "The pixels are not square (%s x %s %s); their width is used in both directions.",
+                        calibration.pixelWidth,
+                        calibration.pixelHeight,
+                        calibration.getUnit()));
+            }
+        }
+        OptionalDouble interval = options.frameIntervalSeconds();
+        if (interval.isEmpty()) {
+            interval = Units.frameIntervalSeconds(calibration);
+            // The AVI reader gives the frame rate only.
+            if (interval.isEmpty() && calibration.fps > 0) {
+                interval = OptionalDouble.of(1 / calibration.fps);
+                warnings.add(String.format(
+                        Locale.ROOT,
+                        "The frame interval, %.4g s, is taken from the film's playback rate; if it was recorded at"
+                                + " another rate, set frame_interval.",
+                        interval.getAsDouble()));
+            }
+        }
+        if (pixelSize.isEmpty() || interval.isEmpty()) {
+            warnings.add("The film has no %s: speeds are reported in pixels per frame; set %s to have them in um/s."
+                    .formatted(
+                            pixelSize.isPresent()
+                                    ? "frame interval"
+                                    : interval.isPresent() ? "pixel size" : "pixel size and no frame interval",
+                            pixelSize.isPresent()
+                                    ? "frame_interval"
+                                    : interval.isPresent() ? "pixel_size" : "pixel_size and frame_interval"));
+        }
+        return new Calibrations(pixelSize, interval, warnings);
+    }
+}

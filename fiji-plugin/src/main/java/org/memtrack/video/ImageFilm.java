@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.video;
+
+import ij.ImagePlus;
+import ij.ImageStack;
+import ij.io.FileInfo;
+import ij.process.ImageProcessor;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
+import java.nio.file.Files;
+import java.nio.file.InvalidPathException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Locale;
+import java.util.Optional;
+import org.memtrack.detection.DetectorException;
+
+/** A film that ImageJ has open, in memory or as a virtual stack. */
+public final class ImageFilm implements Film {
+    private final ImagePlus image;
+    private final ImageStack stack;
+    private final FilmOptions options;
+    private final FilmInfo info;
+    private final SampleType sampleType;
+    private final List<String> warnings;
+
+    /**
+     * The film that the options pick out of an image.
+     *
+     * @throws DetectorException when the image is not grey, its frames lie on another axis, or it has no such channel
+     *     or frames
+     */
+    public ImageFilm(ImagePlus image, FilmOptions options) {
+        this.image = image;
+        this.stack = image.getStack();
+        this.options = options;
+        this.sampleType = sampleType(image);
+        checkAxes(image, options.frameAxis());
+        if (options.channel() > image.getNChannels()) {
+            throw new DetectorException("\"%s\" has %d channels: choose one of them instead of channel %d."
+                    .formatted(image.getTitle(), image.getNChannels(), options.channel()));
+        }
+        int all = options.frameAxis() == FrameAxis.T ? image.getNFrames() : image.getNSlices();
+        int last = options.lastFrame() == 0 ? all : options.lastFrame();
+        if (last > all || options.firstFrame() > last) {
+            throw new DetectorException("\"%s\" has %d frames: choose a range within 1 to %d instead of %d to %d."
+                    .formatted(image.getTitle(), all, all, options.firstFrame(), last));
+        }
+        Calibrations calibrations = Calibrations.of(image.getCalibration(), options);
+        this.warnings = calibrations.warnings();
+        this.info = new FilmInfo(
+                image.getTitle(),
+                file(image),
+                image.getWidth(),
+                image.getHeight(),
+                last - options.firstFrame() + 1,
+                calibrations.pixelSizeMicrometres(),
+                calibrations.frameIntervalSeconds());
+    }
+
+    /** Whether an image that has frames has them on Z, as ImageJ opens AVI files and folders of pictures. */
+    public static boolean framesLieOnZ(ImagePlus image) {
+        return image.getNFrames() == 1 && image.getNSlices() > 1;
+    }
+
+    /** What the user should know about this film, one sentence each. */
+    public List<String> warnings() {
+        return List.copyOf(warnings);
+    }
+
+    @Override
+    public FilmInfo info() {
+        return info;
+    }
+
+    @Override
+    public SampleType sampleType() {
+        return sampleType;
+    }
+
+    @Override
+    public int firstFrame() {
+        return options.firstFrame() - 1;
+    }
+
+    /** Slice of the image's stack, from 1, that holds a frame, from 0. */
+    public int sliceOf(int frame) {
+        int counted = options.firstFrame() + frame;
+        return options.frameAxis() == FrameAxis.T
+                ? image.getStackIndex(options.channel(), 1, counted)
+                : image.getStackIndex(options.channel(), counted, 1);
+    }
+
+    @Override
+    public byte[] frame(int frame) {
+        int slice = sliceOf(frame);
+        ImageProcessor processor = stack.getProcessor(slice);
+        if (processor == null || processor.getWidth() != info.width() || processor.getHeight() != info.height()) {
+            throw new DetectorException("Slice %d of \"%s\" cannot be read: open the film again and check that its files are"
+                            .formatted(slice, info.title())
+                    + " still there.");
+        }
+        Object pixels = processor.getPixels();
+        if (pixels instanceof byte[] samples) {
+            return samples.clone();
+        }
+        ByteBuffer bytes = ByteBuffer.allocate(info.width() * info.height() * sampleType.bytes())
+                .order(ByteOrder.LITTLE_ENDIAN);
+        if (pixels instanceof short[] samples) {
+            bytes.asShortBuffer().put(samples);
+        } else {
+            bytes.asFloatBuffer().put((float[]) pixels);
+        }
+        return bytes.array();
+    }
+
+    private static SampleType sampleType(ImagePlus image) {
+        return switch (image.getType()) {
+            case ImagePlus.GRAY8 -> SampleType.UINT8;
+            case ImagePlus.GRAY16 -> SampleType.UINT16;
+            case ImagePlus.GRAY32 -> SampleType.FLOAT32;
+            default -> throw new DetectorException(
+                    "\"%s\" is a colour image: make it grey with Image > Type > 8-bit.".formatted(image.getTitle()));
+        };
+    }
+
+    private static void checkAxes(ImagePlus image, FrameAxis axis) {
+        if (axis == FrameAxis.T && framesLieOnZ(image)) {
+            throw new DetectorException(("\"%s\" has %d slices in Z and a single frame: if the slices are its frames, say"
+                            + " frames=z, or swap Z and T in Image > Properties.")
+                    .formatted(image.getTitle(), image.getNSlices()));
+        }
+        if (image.getNSlices() > 1 && image.getNFrames() > 1) {
+            throw new DetectorException(("\"%s\" has both %d slices in Z and %d frames: make one plane of each frame"
+                            + " first, with Image > Stacks > Z Project.")
+                    .formatted(image.getTitle(), image.getNSlices(), image.getNFrames()));
+        }
+        if (axis == FrameAxis.Z && image.getNFrames() > 1) {
+            throw new DetectorException("\"%s\" has its %d frames on T: leave frames=z out."
+                    .formatted(image.getTitle(), image.getNFrames()));
+        }
+    }
+
+    private static Optional<Path> file(ImagePlus image) {
+        FileInfo source = image.getOriginalFileInfo();
+        if (source == null || source.fileName == null || source.fileName.isBlank()) {
+            return Optional.empty();
+        }
+        try {
+            Path file = Path.of(source.directory == null ? "" : source.directory, source.fileName);
+            return Files.isRegularFile(file) && !isOneOfManyPictures(image, file) ? Optional.of(file) : Optional.empty();
+        } catch (InvalidPathException e) {
+            return Optional.empty();
+        }
+    }
+
+    /** A folder of pictures names its first one as its file. */
+    private static boolean isOneOfManyPictures(ImagePlus image, Path file) {
+        String name = file.getFileName().toString().toLowerCase(Locale.ROOT);
+        return image.getStackSize() > 1 && name.matches(".*\\.(png|jpe?g|bmp|gif|pgm)");
+    }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.video;
+
+import ij.measure.Calibration;
+import java.util.Locale;
+import java.util.OptionalDouble;
+
+/** Reads micrometres and seconds out of ImageJ's calibration, whose units are free text. */
+final class Units {
+    private Units() {}
+
+    /** Edge of a pixel in micrometres; empty when the image is in pixels, in an unknown unit, or in inches of a screen. */
+    static OptionalDouble pixelSizeMicrometres(Calibration calibration) {
+        return scaled(
+                calibration.pixelWidth,
+                switch (calibration.getUnit().trim().toLowerCase(Locale.ROOT)) {
+                    case "nm", "nanometer", "nanometre", "nanometers", "nanometres" -> 1e-3;
+                        // Both micro signs: Latin-1 and Greek.
+                    case "\u00b5m",
+                            "\u03bcm",
+                            "um",
+                            "micron",
+                            "microns",
+                            "micrometer",
+                            "micrometre",
+                            "micrometers",
+                            "micrometres" -> 1;
+                    case "mm", "millimeter", "millimetre", "millimeters", "millimetres" -> 1e3;
+                    case "cm", "centimeter", "centimetre" -> 1e4;
+                    case "m", "meter", "metre" -> 1e6;
+                    default -> 0;
+                });
+    }
+
+    /** Time between two frames in seconds; empty when the image does not say or names an unknown unit. */
+    static OptionalDouble frameIntervalSeconds(Calibration calibration) {
+        String unit = calibration.getTimeUnit();
+        return scaled(
+                calibration.frameInterval,
+                switch (unit == null ? "s" : unit.trim().toLowerCase(Locale.ROOT)) {
+                    case "\u00b5s", "\u03bcs", "us", "usec" -> 1e-6;
+                    case "ms", "msec", "millisecond", "milliseconds" -> 1e-3;
+                    case "s", "sec", "second", "seconds" -> 1;
+                    case "min", "minute", "minutes" -> 60;
+                    case "h", "hr", "hour", "hours" -> 3600;
+                    default -> 0;
+                });
+    }
+
+    private static OptionalDouble scaled(double value, double factor) {
+        double product = value * factor;
+        return product > 0 && Double.isFinite(product) ? OptionalDouble.of(product) : OptionalDouble.empty();
+    }
+}
