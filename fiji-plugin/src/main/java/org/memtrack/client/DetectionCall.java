@@ -90,6 +90,9 @@ final class DetectionCall {
                 Messages.stage(standing.getStage()),
                 fraction,
                 secondsLeft,
-                "frame %d of %d".formatted(standing.getFramesDone(), film.info().frameCount()));
+                standing.getFilmsAhead() > 0
+                        ? "waiting for %d other films".formatted(standing.getFilmsAhead())
+                        : "frame %d of %d"
+                                .formatted(standing.getFramesDone(), film.info().frameCount()));
     }
 }

@@ -20,7 +20,7 @@ public final class DetectionClient implements AutoCloseable {
     /** Version of the contract this client speaks. */
     public static final int PROTOCOL = 1;
 
-    private static final Duration CONTROL_DEADLINE = Duration.ofSeconds(20);
+    private static final Duration CONTROL_DEADLINE = Duration.ofSeconds(30);
     /** Longest silence of the server in a film: loading a model or one pass over a huge film may take a while. */
     private static final Duration IDLE_LIMIT = Duration.ofSeconds(120);
 
@@ -40,10 +40,13 @@ public final class DetectionClient implements AutoCloseable {
     /**
      * What the server says of itself.
      *
-     * @throws DetectorException when it does not answer within 20 s, or speaks another version of the contract
+     * @param testDevices also to run one operation on each device, which may take some seconds
+     * @throws DetectorException when it does not answer within 30 s, or speaks another version of the contract
      */
-    public ServerInfo info() {
-        GetServerInfoResponse response = call(stub -> stub.getServerInfo(GetServerInfoRequest.getDefaultInstance()));
+    public ServerInfo info(boolean testDevices) {
+        GetServerInfoRequest request =
+                GetServerInfoRequest.newBuilder().setTestDevices(testDevices).build();
+        GetServerInfoResponse response = call(stub -> stub.getServerInfo(request));
         if (response.getProtocol() != PROTOCOL) {
             throw new DetectorException(("The server (memtrack %s) speaks version %d of the protocol and this plug-in"
                             + " version %d: update the older of the two.")
@@ -55,7 +58,7 @@ public final class DetectionClient implements AutoCloseable {
     /**
      * The models the server has, newest version of each name first.
      *
-     * @throws DetectorException when it does not answer within 20 s
+     * @throws DetectorException when it does not answer within 30 s
      */
     public List<ModelCard> models() {
         return call(stub -> stub.listModels(ListModelsRequest.getDefaultInstance())).getModelsList().stream()

@@ -2,6 +2,7 @@
 package org.memtrack.client;
 
 import io.grpc.Status;
+import java.util.Locale;
 import org.memtrack.detection.DetectorException;
 
 /** Turns the status of a failed call into one sentence for the user. */
@@ -33,5 +34,10 @@ final class Failures {
                         + " \"MEMTrack Check Installation\".";
         };
         return new DetectorException(sentence, status.asRuntimeException());
+    }
+
+    private static String asSentence(String clause) {
+        String stopped = clause.endsWith(".") ? clause : clause + ".";
+        return stopped.substring(0, 1).toUpperCase(Locale.ROOT) + stopped.substring(1);
     }
 }

@@ -8,7 +8,7 @@ import java.util.List;
  *
  * @param name name of the model
  * @param version version of the model
- * @param sha256 SHA-256 of the model's weights, hexadecimal
+ * @param sha256 SHA-256 of the model's card, which states those of its weights, hexadecimal
  * @param thresholds thresholds in force
  * @param scale factor by which frames are enlarged to reach the model's pixel size
  * @param engine computing engine, for example "openvino 2026.4 CPU"

@@ -11,7 +11,7 @@ import java.util.Map;
  * @param version version of its package
  * @param pythonVersion version of its Python
  * @param libraries versions of the libraries in use, by name
- * @param devices devices that passed a one-operation test
+ * @param devices devices that passed a one-operation test; empty unless the test was asked for
  * @param maxFilmBytes largest film accepted, in bytes of samples
  * @param spoolFreeBytes free space where films are spooled, in bytes
  */

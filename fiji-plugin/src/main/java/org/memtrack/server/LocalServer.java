@@ -11,6 +11,7 @@ import java.security.SecureRandom;
 import java.time.Duration;
 import java.util.HexFormat;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
@@ -52,8 +53,12 @@ final class LocalServer {
     static LocalServer start(Interpreter interpreter, Progress progress) throws StartException {
         String token = HexFormat.of().formatHex(randomBytes());
         ProcessBuilder builder = interpreter.process(
-                "-m", "memtrack", "serve", "--token-from-stdin", "--parent-pid", Long.toString(ProcessHandle.current()
-                        .pid()));
+                "-m",
+                "memtrack",
+                "serve",
+                "--token-from-stdin",
+                "--parent-pid",
+                Long.toString(ProcessHandle.current().pid()));
         builder.directory(Path.of(System.getProperty("user.home", ".")).toFile());
         Process process;
         try {
@@ -96,9 +101,23 @@ final class LocalServer {
         return DetectionClient.connect("127.0.0.1", greeting.port, token);
     }
 
-    /** The last lines the server wrote to its error stream. */
-    List<String> lastWords() {
-        return errors.lines();
+    /** How the process ended, as one sentence with its last words; empty while it runs. */
+    Optional<String> death() {
+        try {
+            // The connection breaks a moment before the process is gone.
+            if (!process.waitFor(500, TimeUnit.MILLISECONDS)) {
+                return Optional.empty();
+            }
+            errors.finish();
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            return Optional.empty();
+        }
+        String words = errors.lines().isEmpty() ? "" : "; its last words: " + last(errors.lines());
+        return Optional.of(
+                ("The server ended while it worked (exit code %d%s): run again, and if memory is short, close"
+                                + " other programs or crop the film.")
+                        .formatted(process.exitValue(), words));
     }
 
     /** Asks the process to end, and makes it end within a few seconds. */
@@ -161,14 +180,18 @@ final class LocalServer {
         if (lines.stream().anyMatch(line -> line.endsWith("No module named memtrack"))) {
             return interpreter.describe() + " has no package memtrack";
         }
-        String last = lines.stream()
-                .filter(line -> !line.isBlank())
-                .reduce((first, second) -> second)
-                .orElseGet(() -> output.lines().isEmpty()
-                        ? "it said nothing"
-                        : "it said \"" + output.lines().get(0) + "\"");
+        String words = !lines.isEmpty()
+                ? last(lines)
+                : output.lines().isEmpty() ? "it said nothing" : "it said \"" + last(output.lines()) + "\"";
         String ended = process.isAlive() ? "did not start within %d s".formatted(START_LIMIT.toSeconds()) : "ended";
-        return "the server of %s %s: %s".formatted(interpreter.describe(), ended, last);
+        return "the server of %s %s: %s".formatted(interpreter.describe(), ended, words);
+    }
+
+    private static String last(List<String> lines) {
+        return lines.stream()
+                .filter(line -> !line.isBlank())
+                .reduce("", (first, second) -> second)
+                .strip();
     }
 
     private static void end(Process process) {

@@ -75,18 +75,19 @@ final class ManagedServer {
                 reasons.add(e.getMessage());
             }
         }
-        throw new DetectorException(reasons.isEmpty()
-                ? "No Python was found: install Python 3.10 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
-                        + " Install Python Environment."
-                : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
-                                .formatted(String.join("; ", reasons))
-                        + " Environment, or name a Python that has MEMTrack.");
+        throw new DetectorException(
+                reasons.isEmpty()
+                        ? "No Python was found: install Python 3.10 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
+                                + " Install Python Environment."
+                        : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
+                                        .formatted(String.join("; ", reasons))
+                                + " Environment, or name a Python that has MEMTrack.");
     }
 
     private static Running connect(LocalServer server) {
         DetectionClient client = server.connect();
         try {
-            return new Running(server, client, client.info(), new ArrayList<>());
+            return new Running(server, client, client.info(false), new ArrayList<>());
         } catch (RuntimeException e) {
             client.close();
             server.end();
@@ -99,7 +100,7 @@ final class ManagedServer {
             return false;
         }
         try {
-            current.client.info();
+            current.client.info(false);
             return true;
         } catch (DetectorException e) {
             return false;
@@ -114,7 +115,11 @@ final class ManagedServer {
             ending = null;
         }
         return new ServerConnection(
-                current.client, current.info, current.server.interpreter().describe(), () -> release(current, user));
+                current.client,
+                current.info,
+                current.server.interpreter().describe(),
+                current.server::death,
+                () -> release(current, user));
     }
 
     private void release(Running used, Object user) {

@@ -1,25 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.server;
 
+import java.util.Optional;
+import java.util.function.Supplier;
 import org.memtrack.client.DetectionClient;
+import org.memtrack.client.DetectionResult;
+import org.memtrack.client.DetectionSettings;
+import org.memtrack.client.Progress;
 import org.memtrack.client.ServerInfo;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.video.Film;
 
 /** A server that has answered, with a client to call it; to be closed after use. */
 public final class ServerConnection implements AutoCloseable {
     private final DetectionClient client;
     private final ServerInfo info;
     private final String origin;
+    private final Supplier<Optional<String>> death;
     private final Runnable release;
 
-    ServerConnection(DetectionClient client, ServerInfo info, String origin, Runnable release) {
+    /**
+     * @param death how the server's process ended; empty while it runs or when it is not ours
+     * @param release called by {@link #close}
+     */
+    ServerConnection(
+            DetectionClient client,
+            ServerInfo info,
+            String origin,
+            Supplier<Optional<String>> death,
+            Runnable release) {
         this.client = client;
         this.info = info;
         this.origin = origin;
+        this.death = death;
         this.release = release;
     }
 
     public DetectionClient client() {
         return client;
+    }
+
+    /**
+     * Detects in a film, as {@link DetectionClient#detect}; when a server of our own dies meanwhile, the error tells its
+     * last words.
+     */
+    public DetectionResult detect(Film film, DetectionSettings settings, Progress progress) {
+        try {
+            return client.detect(film, settings, progress);
+        } catch (DetectorException e) {
+            throw death.get().map(how -> new DetectorException(how, e)).orElse(e);
+        }
     }
 
     /** What the server said of itself when the connection was made. */

@@ -2,6 +2,7 @@
 package org.memtrack.server;
 
 import java.time.Duration;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import java.util.regex.Matcher;
@@ -54,11 +55,12 @@ public final class Servers {
         String token = System.getenv().getOrDefault("MEMTRACK_TOKEN", "");
         DetectionClient client = DetectionClient.connect(parts.group(1), Integer.parseInt(parts.group(2)), token);
         try {
-            ServerInfo info = client.info();
-            return new ServerConnection(client, info, address, client::close);
+            ServerInfo info = client.info(false);
+            return new ServerConnection(client, info, address, Optional::empty, client::close);
         } catch (DetectorException e) {
             client.close();
-            throw new DetectorException("No server of MEMTrack can be used at %s: %s".formatted(address, e.getMessage()), e);
+            throw new DetectorException(
+                    "No server of MEMTrack can be used at %s: %s".formatted(address, e.getMessage()), e);
         }
     }
 }

@@ -14,8 +14,7 @@ import java.util.OptionalDouble;
  * @param frameIntervalSeconds empty when nobody says
  * @param warnings one sentence each
  */
-record Calibrations(
-        OptionalDouble pixelSizeMicrometres, OptionalDouble frameIntervalSeconds, List<String> warnings) {
+record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameIntervalSeconds, List<String> warnings) {
 
     /** What the user said, and where they said nothing, what the image says. */
     static Calibrations of(Calibration calibration, FilmOptions options) {

@@ -96,9 +96,10 @@ public final class ImageFilm implements Film {
         int slice = sliceOf(frame);
         ImageProcessor processor = stack.getProcessor(slice);
         if (processor == null || processor.getWidth() != info.width() || processor.getHeight() != info.height()) {
-            throw new DetectorException("Slice %d of \"%s\" cannot be read: open the film again and check that its files are"
-                            .formatted(slice, info.title())
-                    + " still there.");
+            throw new DetectorException(
+                    "Slice %d of \"%s\" cannot be read: open the film again and check that its files are"
+                                    .formatted(slice, info.title())
+                            + " still there.");
         }
         Object pixels = processor.getPixels();
         if (pixels instanceof byte[] samples) {
@@ -119,16 +120,18 @@ public final class ImageFilm implements Film {
             case ImagePlus.GRAY8 -> SampleType.UINT8;
             case ImagePlus.GRAY16 -> SampleType.UINT16;
             case ImagePlus.GRAY32 -> SampleType.FLOAT32;
-            default -> throw new DetectorException(
-                    "\"%s\" is a colour image: make it grey with Image > Type > 8-bit.".formatted(image.getTitle()));
+            default ->
+                throw new DetectorException("\"%s\" is a colour image: make it grey with Image > Type > 8-bit."
+                        .formatted(image.getTitle()));
         };
     }
 
     private static void checkAxes(ImagePlus image, FrameAxis axis) {
         if (axis == FrameAxis.T && framesLieOnZ(image)) {
-            throw new DetectorException(("\"%s\" has %d slices in Z and a single frame: if the slices are its frames, say"
-                            + " frames=z, or swap Z and T in Image > Properties.")
-                    .formatted(image.getTitle(), image.getNSlices()));
+            throw new DetectorException(
+                    ("\"%s\" has %d slices in Z and a single frame: if the slices are its frames, say"
+                                    + " frames=z, or swap Z and T in Image > Properties.")
+                            .formatted(image.getTitle(), image.getNSlices()));
         }
         if (image.getNSlices() > 1 && image.getNFrames() > 1) {
             throw new DetectorException(("\"%s\" has both %d slices in Z and %d frames: make one plane of each frame"
@@ -148,7 +151,9 @@ public final class ImageFilm implements Film {
         }
         try {
             Path file = Path.of(source.directory == null ? "" : source.directory, source.fileName);
-            return Files.isRegularFile(file) && !isOneOfManyPictures(image, file) ? Optional.of(file) : Optional.empty();
+            return Files.isRegularFile(file) && !isOneOfManyPictures(image, file)
+                    ? Optional.of(file)
+                    : Optional.empty();
         } catch (InvalidPathException e) {
             return Optional.empty();
         }

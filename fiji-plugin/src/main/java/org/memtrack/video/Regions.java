@@ -24,9 +24,12 @@ public final class Regions {
             return Optional.empty();
         }
         if (!roi.isArea()) {
-            throw new DetectorException("The selection in \"%s\" is a %s and has no area: remove it with Edit > Selection"
-                            .formatted(image.getTitle(), roi.getTypeAsString().toLowerCase(Locale.ROOT))
-                    + " > Select None, or draw a region.");
+            throw new DetectorException(
+                    "The selection in \"%s\" is a %s and has no area: remove it with Edit > Selection"
+                                    .formatted(
+                                            image.getTitle(),
+                                            roi.getTypeAsString().toLowerCase(Locale.ROOT))
+                            + " > Select None, or draw a region.");
         }
         int width = image.getWidth();
         int height = image.getHeight();
@@ -37,9 +40,10 @@ public final class Regions {
             }
         }
         if (inside.isEmpty()) {
-            throw new DetectorException("The selection in \"%s\" lies outside the image: remove it with Edit > Selection >"
-                            .formatted(image.getTitle())
-                    + " Select None, or draw a region.");
+            throw new DetectorException(
+                    "The selection in \"%s\" lies outside the image: remove it with Edit > Selection >"
+                                    .formatted(image.getTitle())
+                            + " Select None, or draw a region.");
         }
         return Optional.of(new RegionMask(width, height, inside));
     }

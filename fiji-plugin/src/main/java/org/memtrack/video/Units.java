@@ -15,7 +15,7 @@ final class Units {
                 calibration.pixelWidth,
                 switch (calibration.getUnit().trim().toLowerCase(Locale.ROOT)) {
                     case "nm", "nanometer", "nanometre", "nanometers", "nanometres" -> 1e-3;
-                        // Both micro signs: Latin-1 and Greek.
+                    // Both micro signs: Latin-1 and Greek.
                     case "\u00b5m",
                             "\u03bcm",
                             "um",

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.macro;
+
+import java.util.List;
+import java.util.Optional;
+import java.util.stream.Stream;
+
+/** An option of the command "MEMTrack Track": the one table that macro, dialog, recorder and manual derive from. */
+public enum TrackOption {
+    OUTPUT("output", "Output folder", Kind.FOLDER, "", "folder for the results; made if missing. Required"),
+    PRESET(
+            "preset",
+            "Medium",
+            "collagen",
+            "least length of a track: 60 frames in collagen, 30 in water",
+            "collagen",
+            "water"),
+    CRITERION(
+            "criterion",
+            "Thresholds for",
+            "maximum precision",
+            "which of the model's stored score thresholds to use",
+            "maximum precision",
+            "maximum F1"),
+    MODEL("model", "Model", Kind.TEXT, "default", "name of the model, or default"),
+    PIXEL_SIZE("pixel_size", "Pixel size (um)", Kind.NUMBER, "", "edge of a pixel in um; the image's own if left out"),
+    FRAME_INTERVAL(
+            "frame_interval",
+            "Frame interval (s)",
+            Kind.NUMBER,
+            "",
+            "time between two frames in s; the image's own if left out"),
+    CELL_LENGTH(
+            "cell_length",
+            "Cell length (px)",
+            Kind.NUMBER,
+            "",
+            "length of a cell as it looks in the film, in pixels; by it the film is brought to the model's scale"),
+    STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
+    OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
+
+    FRAMES("frames", "Frames lie on", "t", "dimension of the image that holds the frames", "t", "z"),
+    CHANNEL("channel", "Channel", Kind.INTEGER, "1", "channel to use, counted from 1"),
+    FIRST_FRAME("first_frame", "First frame", Kind.INTEGER, "1", "first frame to use, counted from 1"),
+    LAST_FRAME(
+            "last_frame", "Last frame", Kind.INTEGER, "", "last frame to use, counted from 1; the film's if left out"),
+    MODEL_VERSION("model_version", "Version of the model", Kind.TEXT, "", "the newest if left out"),
+    THRESHOLD_LOW(
+            "threshold_low",
+            "Threshold, low level",
+            Kind.NUMBER,
+            "",
+            "least score, 0 to 1, for the low level; give all three thresholds or none"),
+    THRESHOLD_MEDIUM("threshold_medium", "Threshold, medium level", Kind.NUMBER, "", "likewise for the medium level"),
+    THRESHOLD_HIGH("threshold_high", "Threshold, high level", Kind.NUMBER, "", "likewise for the high level"),
+    MAX_SIZE(
+            "max_size",
+            "Greatest size (px)",
+            Kind.NUMBER,
+            "",
+            "wider or taller boxes are dropped, pixels at the model's scale; the model's own if left out"),
+    NMS_IOU(
+            "nms_iou",
+            "Greatest overlap (IoU)",
+            Kind.NUMBER,
+            "",
+            "of two boxes that overlap more, 0 to 1, the weaker is dropped; the model's own if left out"),
+    MIN_LENGTH(
+            "min_length",
+            "Least track length (frames)",
+            Kind.INTEGER,
+            "",
+            "shorter tracks are dropped; the preset's if left out"),
+    MAX_AGE("max_age", "Maximum age (frames)", Kind.INTEGER, "25", "frames a track may go on without a detection"),
+    MIN_HITS("min_hits", "Minimum hits", Kind.INTEGER, "0", "detections a track needs"),
+    IOU_GATE(
+            "iou_gate",
+            "IoU gate",
+            Kind.NUMBER,
+            "0.05",
+            "least overlap, 0 to 1, of a detection with the place where its track is expected"),
+    ASSOCIATION(
+            "association",
+            "Association by",
+            "overlap",
+            "how detections are joined: by overlap as in the paper, or by distance from the expected place",
+            "overlap",
+            "motion"),
+    INTERPOLATION(
+            "interpolation",
+            "Interpolation",
+            "fill gaps",
+            "fill the gaps between detections, or as the paper's authors, with a tail after the last one",
+            "fill gaps",
+            "authors"),
+    PYTHON("python", "Python", Kind.TEXT, "", "interpreter to start the server with; found if left out"),
+    SERVER("server", "Server (host:port)", Kind.TEXT, "", "a server that runs already; its token in MEMTRACK_TOKEN");
+
+    /** What a value looks like. */
+    public enum Kind {
+        FOLDER,
+        TEXT,
+        NUMBER,
+        INTEGER,
+        CHOICE,
+        SWITCH
+    }
+
+    private final String key;
+    private final String label;
+    private final Kind kind;
+    private final String defaultValue;
+    private final String help;
+    private final List<String> choices;
+
+    TrackOption(String key, String label, Kind kind, String defaultValue, String help) {
+        this(key, label, kind, defaultValue, help, List.of());
+    }
+
+    TrackOption(String key, String label, String defaultValue, String help, String... choices) {
+        this(key, label, Kind.CHOICE, defaultValue, help, List.of(choices));
+    }
+
+    TrackOption(String key, String label, Kind kind, String defaultValue, String help, List<String> choices) {
+        this.key = key;
+        this.label = label;
+        this.kind = kind;
+        this.defaultValue = defaultValue;
+        this.help = help;
+        this.choices = choices;
+    }
+
+    /** Name in a macro. */
+    public String key() {
+        return key;
+    }
+
+    /** Name in the dialog. */
+    public String label() {
+        return label;
+    }
+
+    public Kind kind() {
+        return kind;
+    }
+
+    /** What stands for it when a macro leaves it out; empty when something else decides. */
+    public String defaultValue() {
+        return defaultValue;
+    }
+
+    /** Meaning and unit, for manual and dialog. */
+    public String help() {
+        return help;
+    }
+
+    /** The values a {@code CHOICE} can have. */
+    public List<String> choices() {
+        return choices;
+    }
+
+    /** Whether the first page of the dialog shows it. */
+    public boolean common() {
+        return compareTo(OVERLAY) <= 0;
+    }
+
+    /** The option of that name; empty when there is none. */
+    public static Optional<TrackOption> of(String key) {
+        return Stream.of(values()).filter(option -> option.key.equals(key)).findFirst();
+    }
+}

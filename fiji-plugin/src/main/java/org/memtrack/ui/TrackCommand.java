@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.ui;
+
+import ij.IJ;
+import ij.ImagePlus;
+import ij.Macro;
+import ij.WindowManager;
+import ij.plugin.PlugIn;
+import ij.plugin.frame.Recorder;
+import java.awt.GraphicsEnvironment;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.OptionLine;
+import org.memtrack.macro.TrackRequest;
+import org.memtrack.run.Origin;
+import org.memtrack.run.ResultFiles;
+import org.memtrack.run.TrackingResult;
+import org.memtrack.run.TrackingRun;
+import org.memtrack.run.TrackingSettings;
+import org.memtrack.video.ImageFilm;
+import org.memtrack.video.Regions;
+
+/** The command "MEMTrack Track": tracks the open film, as a macro or the dialog says. */
+public final class TrackCommand implements PlugIn {
+    @Override
+    public void run(String argument) {
+        Commands.run(TrackCommand::track);
+    }
+
+    private static void track() {
+        ImagePlus image = WindowManager.getCurrentImage();
+        if (image == null) {
+            throw new DetectorException("No film is open: open one first, with File > Open or File > Import.");
+        }
+        Optional<TrackRequest> request = request(image, Macro.getOptions());
+        if (request.isPresent()) {
+            track(image, request.get(), new StatusProgress());
+        }
+    }
+
+    private static Optional<TrackRequest> request(ImagePlus image, @Nullable String options) {
+        if (options != null || GraphicsEnvironment.isHeadless()) {
+            return Optional.of(TrackRequest.of(OptionLine.parse(options == null ? "" : options)));
+        }
+        Optional<TrackRequest> request = TrackDialog.ask(image);
+        request.ifPresent(wanted -> record(wanted.options()));
+        return request;
+    }
+
+    private static void track(ImagePlus image, TrackRequest request, Progress progress) {
+        ImageFilm film = new ImageFilm(image, request.film());
+        ResultFiles files = ResultFiles.in(request.output(), image.getTitle());
+        TrackingSettings settings = request.settings();
+        settings = new TrackingSettings(
+                settings.detection().withRegion(Regions.of(image).orElse(null)),
+                settings.tracking(),
+                settings.server());
+        TrackingResult result = TrackingRun.run(film, settings, progress);
+        List<String> warnings = new ArrayList<>(film.warnings());
+        warnings.addAll(result.warnings());
+        files.write(result, film, Origin.of(film, result, request.options(), warnings));
+        if (request.overlay() && !GraphicsEnvironment.isHeadless()) {
+            TrackOverlay.show(image, film, result.tracked().tracks());
+        }
+        IJ.log("MEMTrack: " + result.describe());
+        warnings.forEach(warning -> IJ.log("MEMTrack, note: " + warning));
+        IJ.log("MEMTrack: results in " + files.provenance().getParent());
+        IJ.showStatus("MEMTrack: " + result.describe());
+    }
+
+    private static void record(Map<String, String> options) {
+        if (Recorder.record) {
+            options.forEach((key, value) -> Recorder.recordOption(key, value.replace('\\', '/')));
+        }
+    }
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.ui;
+
+import ij.ImagePlus;
+import ij.Prefs;
+import ij.gui.GenericDialog;
+import ij.gui.YesNoCancelDialog;
+import java.awt.Checkbox;
+import java.awt.Choice;
+import java.awt.Color;
+import java.awt.TextField;
+import java.util.ArrayList;
+import java.util.EnumMap;
+import java.util.Iterator;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Vector;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.TrackOption;
+import org.memtrack.macro.TrackRequest;
+import org.memtrack.video.ImageFilm;
+
+/** Asks for the options of "MEMTrack Track"; the last answers are offered again, in the dialog only. */
+final class TrackDialog {
+    private static final String PREFERENCE = "memtrack.";
+
+    private TrackDialog() {}
+
+    /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
+    static Optional<TrackRequest> ask(ImagePlus image) {
+        Map<TrackOption, String> values = new EnumMap<>(TrackOption.class);
+        for (TrackOption option : TrackOption.values()) {
+            values.put(option, Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
+        }
+        if (!askForAxis(image, values)) {
+            return Optional.empty();
+        }
+        String complaint = "";
+        while (true) {
+            Optional<Boolean> more = page(complaint, true, values);
+            if (more.isEmpty() || more.get() && page("", false, values).isEmpty()) {
+                return Optional.empty();
+            }
+            try {
+                TrackRequest request = TrackRequest.of(keyed(values));
+                values.forEach((option, value) -> Prefs.set(PREFERENCE + option.key(), value));
+                return Optional.of(request);
+            } catch (DetectorException e) {
+                complaint = e.getMessage();
+            }
+        }
+    }
+
+    private static boolean askForAxis(ImagePlus image, Map<TrackOption, String> values) {
+        values.put(TrackOption.FRAMES, "t");
+        if (!ImageFilm.framesLieOnZ(image)) {
+            return true;
+        }
+        YesNoCancelDialog question = new YesNoCancelDialog(
+                null,
+                "MEMTrack",
+                "\"%s\" has %d slices in Z and a single frame.\nAre the slices the frames of the film?"
+                        .formatted(image.getTitle(), image.getNSlices()));
+        if (question.yesPressed()) {
+            values.put(TrackOption.FRAMES, "z");
+        }
+        return !question.cancelPressed();
+    }
+
+    /** One page of the dialog: empty when cancelled, otherwise whether the user asks for the other page. */
+    private static Optional<Boolean> page(String complaint, boolean common, Map<TrackOption, String> values) {
+        GenericDialog dialog = new GenericDialog(common ? "MEMTrack" : "MEMTrack: more options");
+        if (!complaint.isEmpty()) {
+            dialog.addMessage(wrapped(complaint), null, Color.RED);
+        }
+        List<TrackOption> shown = new ArrayList<>();
+        for (TrackOption option : TrackOption.values()) {
+            if (option.common() == common) {
+                add(dialog, option, values.getOrDefault(option, ""));
+                shown.add(option);
+            }
+        }
+        if (common) {
+            dialog.addCheckbox("More options...", false);
+        }
+        dialog.showDialog();
+        if (dialog.wasCanceled()) {
+            return Optional.empty();
+        }
+        return Optional.of(read(dialog, shown, values) && common);
+    }
+
+    private static void add(GenericDialog dialog, TrackOption option, String value) {
+        switch (option.kind()) {
+            case FOLDER -> dialog.addDirectoryField(option.label(), value, 28);
+            case TEXT, NUMBER, INTEGER ->
+                dialog.addStringField(option.label(), value, option.kind() == TrackOption.Kind.TEXT ? 20 : 8);
+            case CHOICE -> dialog.addChoice(option.label(), option.choices().toArray(String[]::new), value);
+            case SWITCH -> dialog.addCheckbox(option.label(), value.equals("true"));
+        }
+    }
+
+    /**
+     * Reads the fields themselves: GenericDialog's own getters would record every value under its label. Gives the state of
+     * the last checkbox.
+     */
+    @SuppressWarnings("unchecked")
+    private static boolean read(GenericDialog dialog, List<TrackOption> shown, Map<TrackOption, String> values) {
+        Iterator<TextField> texts = iterator(dialog.getStringFields());
+        Iterator<Choice> choices = iterator(dialog.getChoices());
+        Iterator<Checkbox> switches = iterator(dialog.getCheckboxes());
+        for (TrackOption option : shown) {
+            values.put(
+                    option,
+                    switch (option.kind()) {
+                        case FOLDER, TEXT, NUMBER, INTEGER ->
+                            texts.next().getText().strip();
+                        case CHOICE -> choices.next().getSelectedItem();
+                        case SWITCH -> Boolean.toString(switches.next().getState());
+                    });
+        }
+        return switches.hasNext() && switches.next().getState();
+    }
+
+    private static <T> Iterator<T> iterator(Vector<T> fields) {
+        return fields == null ? new Vector<T>().iterator() : fields.iterator();
+    }
+
+    private static Map<String, String> keyed(Map<TrackOption, String> values) {
+        Map<String, String> keyed = new LinkedHashMap<>();
+        values.forEach((option, value) -> {
+            // An emptied field means the default.
+            if (!value.isEmpty()) {
+                keyed.put(option.key(), value);
+            }
+        });
+        return keyed;
+    }
+
+    private static String wrapped(String sentence) {
+        return sentence.replaceAll("(.{1,70})(\\s+|$)", "$1\n").strip();
+    }
+}
