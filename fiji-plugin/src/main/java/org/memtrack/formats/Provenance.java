@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.formats;
 
+import com.google.gson.Gson;
+import com.google.gson.GsonBuilder;
+import com.google.gson.JsonParseException;
+import com.google.gson.ToNumberPolicy;
 import java.io.IOException;
+import java.io.Reader;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
@@ -26,9 +33,16 @@ public record Provenance(
         Map<String, Long> counts,
         List<String> warnings) {
 
+    private static final Gson GSON = new GsonBuilder()
+            .setPrettyPrinting()
+            .disableHtmlEscaping()
+            .setObjectToNumberStrategy(ToNumberPolicy.LONG_OR_DOUBLE)
+            .create();
+
     /** Writes it as JSON, all or nothing. */
     public void write(Path target) throws IOException {
-        throw new UnsupportedOperationException("To come");
+        byte[] json = (GSON.toJson(this) + "\n").getBytes(StandardCharsets.UTF_8);
+        AtomicFiles.write(target, out -> out.write(json));
     }
 
     /**
@@ -37,6 +51,14 @@ public record Provenance(
      * @throws FormatException when the file is no provenance
      */
     public static Provenance read(Path source) throws IOException {
-        throw new UnsupportedOperationException("To come");
+        try (Reader reader = Files.newBufferedReader(source, StandardCharsets.UTF_8)) {
+            Provenance provenance = GSON.fromJson(reader, Provenance.class);
+            if (provenance != null) {
+                return provenance;
+            }
+        } catch (JsonParseException | IllegalArgumentException e) {
+            throw new FormatException("%s is no provenance of MEMTrack: %s".formatted(source, e.getMessage()), e);
+        }
+        throw new FormatException("%s is no provenance of MEMTrack: it is empty".formatted(source));
     }
 }

@@ -1,59 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.formats;
 
-/**
- * What MEMTrack tells of a spot besides what TrackMate knows, as it stands in TrackMate's models and files.
- *
- * <p>Keys never change: files that are already written hold them.
- */
+import org.memtrack.detection.Level;
+
+/** Features of a TrackMate spot that are our own. */
 public enum SpotFeature {
-    /** Level of the detector that found the spot: 0 unspecified, 1 low, 2 medium, 3 high. */
+    /** Level of the detector that found it: 0 unspecified, 1 low, 2 medium, 3 high, as in the contract. */
     LEVEL("MEMTRACK_LEVEL", "MEMTrack level", "Level", "NONE", true),
-    /** Score of the detector in [0, 1], as it was before anybody touched the quality; not set when interpolated. */
-    SCORE("MEMTRACK_SCORE", "MEMTrack score", "Score", "QUALITY", false),
-    /** Width of the box, in the model's unit of length. */
-    BOX_WIDTH("MEMTRACK_BOX_WIDTH", "MEMTrack box width", "Box width", "LENGTH", false),
-    /** Height of the box, in the model's unit of length. */
-    BOX_HEIGHT("MEMTRACK_BOX_HEIGHT", "MEMTrack box height", "Box height", "LENGTH", false),
-    /** 1 when the tracker put the spot where no detection was found, 0 when it was observed. */
-    INTERPOLATED("MEMTRACK_INTERPOLATED", "MEMTrack interpolated", "Interpolated", "NONE", true);
+    /** 1 when no detection stands behind the spot, 0 otherwise. */
+    INTERPOLATED("MEMTRACK_INTERPOLATED", "Interpolated", "Interpol.", "NONE", true),
+    /** Width of the box, calibrated. */
+    BOX_WIDTH("MEMTRACK_BOX_WIDTH", "Box width", "Box width", "LENGTH", false),
+    /** Height of the box, calibrated. */
+    BOX_HEIGHT("MEMTRACK_BOX_HEIGHT", "Box height", "Box height", "LENGTH", false),
+    /** Score of the detection; an interpolated spot has none. */
+    SCORE("MEMTRACK_SCORE", "Detection score", "Score", "QUALITY", false),
+    /** Class of motility of the track: 0 none, 1 low, 2 medium, 3 high; missing when it is not known. */
+    MOTILITY("MEMTRACK_MOTILITY", "Motility class", "Motility", "NONE", true);
 
     private final String key;
-    private final String label;
-    private final String shortLabel;
+    private final String fullName;
+    private final String shortName;
     private final String dimension;
-    private final boolean whole;
+    private final boolean integer;
 
-    SpotFeature(String key, String label, String shortLabel, String dimension, boolean whole) {
+    SpotFeature(String key, String fullName, String shortName, String dimension, boolean integer) {
         this.key = key;
-        this.label = label;
-        this.shortLabel = shortLabel;
+        this.fullName = fullName;
+        this.shortName = shortName;
         this.dimension = dimension;
-        this.whole = whole;
+        this.integer = integer;
     }
 
-    /** Name in models and files. */
     public String key() {
         return key;
     }
 
-    /** Name in menus and tables. */
-    public String label() {
-        return label;
+    public String fullName() {
+        return fullName;
     }
 
-    /** Name where there is little room. */
-    public String shortLabel() {
-        return shortLabel;
+    public String shortName() {
+        return shortName;
     }
 
-    /** What is measured, by the name of TrackMate's {@code Dimension}. */
+    /** Name of TrackMate's Dimension. */
     public String dimension() {
         return dimension;
     }
 
-    /** Whether its values are whole numbers. */
-    public boolean whole() {
-        return whole;
+    public boolean isInteger() {
+        return integer;
+    }
+
+    /** The value of {@link #LEVEL} for a level. */
+    public static int codeOf(Level level) {
+        return switch (level) {
+            case UNSPECIFIED -> 0;
+            case LOW -> 1;
+            case MEDIUM -> 2;
+            case HIGH -> 3;
+        };
+    }
+
+    /** The level for a value of {@link #LEVEL}; unspecified for a value that stands for none. */
+    public static Level levelOf(double code) {
+        for (Level level : Level.values()) {
+            if (codeOf(level) == code) {
+                return level;
+            }
+        }
+        return Level.UNSPECIFIED;
     }
 }

@@ -3,22 +3,33 @@ package org.memtrack.formats;
 
 import java.io.IOException;
 import java.nio.file.Path;
+import java.util.List;
+import org.memtrack.detection.FrameDetections;
 
-/** TrackMate XML, version 7.14 of the format; TrackMate 7 and 8 open it with its image. */
+/** TrackMate XML, which TrackMate 7 and 8 open with its film. Spots carry our own {@link SpotFeature}s. */
 public final class TrackMateXml {
     private TrackMateXml() {}
 
-    /** Writes the tracks of a film, all or nothing. */
+    /** Writes the tracks of a film, all or nothing; a track of one point becomes a spot of no track. */
     public static void write(Path target, TrackedFilm tracked) throws IOException {
-        throw new UnsupportedOperationException("To come");
+        write(target, tracked, List.of());
     }
 
     /**
-     * Reads a file: versions 2.4 to 8.
+     * Writes the tracks of a film and the detections that no track holds, as spots of no track; all or nothing.
      *
-     * @throws FormatException when the file is not one of these
+     * @param detections what the tracks were made from
+     */
+    public static void write(Path target, TrackedFilm tracked, List<FrameDetections> detections) throws IOException {
+        AtomicFiles.write(target, out -> new TrackMateXmlWriter(tracked, detections).write(out));
+    }
+
+    /**
+     * Reads a file of TrackMate 2 to 8, or one of its "Export tracks to XML" files.
+     *
+     * @throws FormatException when the file is not one of these, is damaged, or has a document type (TrackMate's have none)
      */
     public static ImportedTracks read(Path source) throws IOException {
-        throw new UnsupportedOperationException("To come");
+        return TrackMateXmlReader.read(source);
     }
 }
