@@ -49,6 +49,7 @@ def test_unlinked_detections_may_share_a_frame_but_points_of_a_track_may_not() -
     table = TrackTable.of([0, 0, 5, 9], [UNLINKED, UNLINKED, 3, 3], [1, 2, 3, 4], [1, 2, 3, 4])
     assert table.track_ids.tolist() == [3]
     assert [track.frames.tolist() for track in table.tracks()] == [[5, 9]]
+    assert list(table.select(table.ids == UNLINKED).tracks()) == []
     assert table.lengths.tolist() == [1, 1, 5, 5]
     with pytest.raises(ValueError, match="track 3 has two points in frame 0"):
         TrackTable.of([0, 0], [3, 3], [1, 2], [1, 2])
@@ -91,7 +92,10 @@ def test_tracks_come_back_as_they_were_written(tmp_path: Path, ending: str) -> N
         np.testing.assert_allclose(back.boxes[order], table.boxes[expected], atol=1e-4)
         assert back.scores[order].tolist() == table.scores[expected].tolist()
         assert back.interpolated[order].tolist() == table.interpolated[expected].tolist()
+    if ending == "csv":
         assert back.motility[order].tolist() == table.motility[expected].tolist()
+    if ending == "xml":
+        assert back.motility[back.ids != UNLINKED].tolist() == [Motility.HIGH] * 3
     assert list(tmp_path.iterdir()) == [path]
 
 

@@ -141,7 +141,7 @@ class TrackTable:
         """Each track as a table of its own, by rising id; unlinked detections are left out."""
         first = int(np.searchsorted(self.ids, UNLINKED, side="right"))
         starts = np.flatnonzero(np.diff(self.ids[first:], prepend=UNLINKED)) + first
-        for start, stop in zip(starts, [*starts[1:], len(self)], strict=True):
+        for start, stop in zip(starts, np.append(starts, len(self))[1:], strict=True):
             yield self.select(np.arange(start, stop))
 
     def with_boxes(self, size: float) -> TrackTable:

@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 import numpy as np
 
 from memtrack.files import write_text
-from memtrack.tracks import UNLINKED, TrackTable
+from memtrack.tracks import UNLINKED, Motility, TrackTable
 
 _DEFAULT_RADIUS = 5.0
 """Radius in pixels of a spot whose row has no box; MTrackJ points and truth tables have none."""
@@ -26,8 +26,9 @@ _SPOT_FEATURES = {
     "FRAME": ("Frame", "NONE", True),
     "RADIUS": ("Radius", "LENGTH", False),
     "VISIBILITY": ("Visibility", "NONE", True),
-    "MEMTRACK_INTERPOLATED": ("Interpolated", "NONE", True),
-    "MEMTRACK_MOTILITY": ("Motility class", "NONE", True),
+    "MEMTRACK_BOX_WIDTH": ("MEMTrack box width", "LENGTH", False),
+    "MEMTRACK_BOX_HEIGHT": ("MEMTrack box height", "LENGTH", False),
+    "MEMTRACK_INTERPOLATED": ("MEMTrack interpolated", "NONE", True),
 }
 _EDGE_FEATURES = {
     "SPOT_SOURCE_ID": ("Source spot ID", "NONE", True),
@@ -38,6 +39,7 @@ _TRACK_FEATURES = {
     "TRACK_INDEX": ("Track index", "NONE", True),
     "TRACK_ID": ("Track ID", "NONE", True),
     "NUMBER_SPOTS": ("Number of spots in track", "NONE", True),
+    "MEMTRACK_TRACK_MOTILITY": ("Motility class (0 none, 1 low, 2 medium, 3 high)", "NONE", True),
 }
 
 
@@ -96,8 +98,9 @@ def _append_spots(model: Element, table: TrackTable, pixel: float, interval: flo
     for frame in np.unique(table.frames):
         in_frame = SubElement(spots, "SpotsInFrame", frame=str(frame))
         for row in np.flatnonzero(table.frames == frame):
-            radius = (table.width[row] + table.height[row]) / 4
-            SubElement(
+            width, height = float(table.width[row]), float(table.height[row])
+            known = not math.isnan(width + height)
+            spot = SubElement(
                 in_frame,
                 "Spot",
                 ID=str(row),
@@ -108,11 +111,13 @@ def _append_spots(model: Element, table: TrackTable, pixel: float, interval: flo
                 POSITION_Z="0.0",
                 POSITION_T=repr(int(frame) * interval),
                 FRAME=str(frame),
-                RADIUS=repr((_DEFAULT_RADIUS if math.isnan(radius) else float(radius)) * pixel),
+                RADIUS=repr(((width + height) / 4 if known else _DEFAULT_RADIUS) * pixel),
                 VISIBILITY="1",
                 MEMTRACK_INTERPOLATED=str(int(table.interpolated[row])),
-                MEMTRACK_MOTILITY=str(int(table.motility[row])),
             )
+            if known:
+                spot.set("MEMTRACK_BOX_WIDTH", repr(width * pixel))
+                spot.set("MEMTRACK_BOX_HEIGHT", repr(height * pixel))
 
 
 def _append_tracks(model: Element, table: TrackTable) -> None:
@@ -129,6 +134,8 @@ def _append_tracks(model: Element, table: TrackTable) -> None:
             TRACK_ID=str(track_id),
             NUMBER_SPOTS=str(len(rows)),
         )
+        if (motility := table.motility[rows].max()) != Motility.UNKNOWN:
+            track.set("MEMTRACK_TRACK_MOTILITY", str(motility))
         for source, target in itertools.pairwise(rows):
             SubElement(track, "Edge", SPOT_SOURCE_ID=str(source), SPOT_TARGET_ID=str(target), LINK_COST="0.0")
         SubElement(filtered, "TrackID", TRACK_ID=str(track_id))

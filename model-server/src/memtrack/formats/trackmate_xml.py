@@ -33,16 +33,17 @@ class _Spot:
     frame: int
     x: float
     y: float
-    radius: float
+    width: float
+    height: float
     quality: float
     interpolated: bool
-    motility: int
 
 
 def read(path: Path, calibration: Calibration) -> TrackTable:
     """Read the visible spots and the tracks that pass TrackMate's track filter.
 
-    A box is the square around a spot's radius. Spots without a track get the id UNLINKED.
+    Only spots that MEMTrack made have boxes: another detector's radius is a setting of it, not the size of what it saw.
+    Spots without a track get the id UNLINKED.
 
     Raises:
         InvalidInputError: the file cannot be read, or is no XML of TrackMate.
@@ -81,18 +82,22 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
                 _whole(spot, "FRAME"),
                 _number(spot, "POSITION_X") / scale,
                 _number(spot, "POSITION_Y") / scale,
-                _number(spot, "RADIUS", math.nan) / scale,
+                _number(spot, "MEMTRACK_BOX_WIDTH", math.nan) / scale,
+                _number(spot, "MEMTRACK_BOX_HEIGHT", math.nan) / scale,
                 _number(spot, "QUALITY", math.nan),
                 _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0,
-                int(_number(spot, "MEMTRACK_MOTILITY", float(Motility.UNKNOWN))),
             )
     kept = {track.get("TRACK_ID") for track in model.iterfind("FilteredTracks/TrackID")}
-    edges = [
-        (_whole(edge, "SPOT_SOURCE_ID"), _whole(edge, "SPOT_TARGET_ID"))
-        for track in model.iterfind("AllTracks/Track")
-        if track.get("TRACK_ID") in kept
-        for edge in track.iterfind("Edge")
-    ]
+    edges: list[tuple[int, int]] = []
+    motility_of: dict[int, Motility] = {}
+    for track in model.iterfind("AllTracks/Track"):
+        if track.get("TRACK_ID") in kept:
+            links = [
+                (_whole(edge, "SPOT_SOURCE_ID"), _whole(edge, "SPOT_TARGET_ID")) for edge in track.iterfind("Edge")
+            ]
+            edges += links
+            motility = Motility(int(_number(track, "MEMTRACK_TRACK_MOTILITY", float(Motility.UNKNOWN))))
+            motility_of |= dict.fromkeys((spot for link in links for spot in link), motility)
     track_of = _unbranched(spots, edges)
     rows = list(spots.values())
     return TrackTable.of(
@@ -100,11 +105,11 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
         [track_of.get(spot_id, UNLINKED) for spot_id in spots],
         [spot.x for spot in rows],
         [spot.y for spot in rows],
-        width=[2 * spot.radius for spot in rows],
-        height=[2 * spot.radius for spot in rows],
+        width=[spot.width for spot in rows],
+        height=[spot.height for spot in rows],
         scores=[spot.quality for spot in rows],
         interpolated=[spot.interpolated for spot in rows],
-        motility=[spot.motility for spot in rows],
+        motility=[motility_of.get(spot_id, Motility.UNKNOWN) for spot_id in spots],
         calibration=Calibration(found, seconds if seconds > 0 else None),
     )
 
