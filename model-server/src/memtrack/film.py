@@ -61,4 +61,5 @@ class ArrayFilm:
         return int(self.frames.shape[2])
 
     def frame(self, index: int) -> Shaped[np.ndarray, "height width"]:
-        return self.frames[index]
+        frame: np.ndarray = self.frames[index]
+        return frame

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Geometry of boxes `x_min y_min x_max y_max` in pixels; computed in float64."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float, Int
+
+Boxes = Float[np.ndarray, "n 4"]
+
+
+def square_boxes(centres: Float[np.ndarray, "n 2"], size: float) -> Float[np.ndarray, "n 4"]:
+    """Squares of edge `size` around `centres` (x, y)."""
+    return np.concatenate([centres - size / 2, centres + size / 2], axis=1)
+
+
+def areas(boxes: Float[np.ndarray, "n 4"]) -> Float[np.ndarray, " n"]:
+    """Area of each box; 0 for one turned inside out."""
+    wide = np.maximum(boxes[:, 2] - boxes[:, 0], 0).astype(np.float64)
+    high = np.maximum(boxes[:, 3] - boxes[:, 1], 0).astype(np.float64)
+    area: np.ndarray = wide * high
+    return area
+
+
+def pairwise_iou(first: Float[np.ndarray, "n 4"], second: Float[np.ndarray, "m 4"]) -> Float[np.ndarray, "n m"]:
+    """Intersection over union of every box of `first` with every box of `second`; 0 where both are empty."""
+    a, b = first.astype(np.float64), second.astype(np.float64)
+    low = np.maximum(a[:, None, :2], b[None, :, :2])
+    high = np.minimum(a[:, None, 2:], b[None, :, 2:])
+    overlap = np.prod(np.maximum(high - low, 0), axis=2)
+    union = areas(a)[:, None] + areas(b)[None, :] - overlap
+    shares: np.ndarray = np.divide(overlap, union, out=np.zeros_like(overlap), where=union > 0)
+    return shares
+
+
+def non_maximum_suppression(
+    boxes: Float[np.ndarray, "n 4"], scores: Float[np.ndarray, " n"], iou: float
+) -> Int[np.ndarray, " kept"]:
+    """Indices of the boxes that no better scored kept box overlaps by more than `iou`, best first.
+
+    Boxes with equal scores keep their order (paper section "False Positive Pruner": IoU 0.7).
+    """
+    order = np.argsort(-scores, kind="stable")
+    overlaps = pairwise_iou(boxes[order], boxes[order]) > iou
+    alive = np.ones(len(order), bool)
+    for i in range(len(order)):
+        if alive[i]:
+            alive[i + 1 :] &= ~overlaps[i, i + 1 :]
+    return order[alive]

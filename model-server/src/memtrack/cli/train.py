@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`memtrack train`: a model from a recipe, registered as a new version."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from memtrack.errors import EngineUnavailableError
+from memtrack.models import user_models
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
+    parser.add_argument("recipe", type=Path, help="TOML file with the films, the net and the optimisation")
+    parser.add_argument(
+        "--workspace", type=Path, help="folder for samples, checkpoints and curves (default: RECIPE.work)"
+    )
+    parser.add_argument("--models", type=Path, help=f"registry to add the model to (default: {user_models()})")
+    parser.add_argument("--device", default="cpu", help="cpu, cuda, cuda:1, mps ... (default: cpu)")
+    parser.add_argument("--threads", type=int, default=1, help="threads of the optimisation on a CPU (default: 1)")
+    parser.add_argument("--workers", type=int, default=1, help="processes that make films (default: 1)")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Trains; progress goes to standard error, the model's folder to standard output.
+
+    Raises:
+        SettingsError: the recipe cannot be used.
+        EngineUnavailableError: PyTorch is not installed.
+    """
+    try:
+        import torch
+    except ImportError as error:
+        raise EngineUnavailableError("training needs PyTorch: install it with 'pip install memtrack[torch]'") from error
+    import cv2
+
+    from memtrack.training.config import read_config
+    from memtrack.training.recipe import train
+    from memtrack.training.train import Workspace
+
+    config = read_config(args.recipe)
+    torch.set_num_threads(args.threads)
+    cv2.setNumThreads(args.threads)
+    workspace = Workspace(args.workspace or args.recipe.with_suffix(".work"))
+    model = train(config, workspace, args.models, device=args.device, workers=args.workers, report=_say)
+    print(model.folder)
+    return 0
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

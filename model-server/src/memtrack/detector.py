@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Multi-level Object Detector: a net's maps of one frame become candidate boxes with scores and levels.
+
+A level's detector answers where its logit is the highest of the levels'; its score is the probability that a bacterium
+of any level is there. So the levels do not share out the score of one that lies between two of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from jaxtyping import Float32, UInt8
+
+from memtrack.boxes import square_boxes
+from memtrack.detections import Detections
+from memtrack.motion import NEUTRAL
+
+Maps = Float32[np.ndarray, "outputs y x"]
+
+ALIGNMENT = 16
+MAX_CANDIDATES = 1500
+AGREEING_PX = 3.0
+
+
+class Engine(Protocol):
+    """Runs one model's net on the features of one frame."""
+
+    def run(self, features: UInt8[np.ndarray, "channel height width"]) -> Maps:
+        """Output maps of features whose height and width are multiples of `ALIGNMENT`."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Decoder:
+    """How maps become boxes; part of a model's card.
+
+    stride: pixels a place of the maps covers. box_size_px: edge of the boxes the model was trained on (paper: 30).
+    slope, offset: score = sigmoid(slope * logit + offset), fitted on the validation films to be a probability.
+    floor: candidates below this score are not listed at all.
+    """
+
+    stride: int = 4
+    box_size_px: float = 30.0
+    slope: float = 1.0
+    offset: float = 0.0
+    floor: float = 0.05
+
+    def decode(self, maps: Maps, height: int, width: int) -> Detections:
+        """Candidates of one frame of `height` x `width` pixels, several of them on each bacterium.
+
+        A candidate's centre is the mean, weighted by the scores, of those candidates that point to within `AGREEING_PX`
+        of it: their errors differ, so the mean is more exact than the best one's.
+        """
+        scores = 1 / (1 + np.exp(-(self.slope * maps[0] + self.offset)))
+        rows, columns = np.nonzero(scores >= self.floor)
+        chosen = scores[rows, columns]
+        if len(chosen) > MAX_CANDIDATES:
+            best = np.argpartition(-chosen, MAX_CANDIDATES)[:MAX_CANDIDATES]
+            rows, columns, chosen = rows[best], columns[best], chosen[best]
+        places = np.stack([columns, rows], axis=1) + maps[-2:, rows, columns].T
+        centres = places * self.stride + (self.stride - 1) / 2
+        inside = ((centres >= -0.5) & (centres <= np.array([width, height]) - 0.5)).all(axis=1)
+        levels = maps[1:-2, rows, columns].argmax(axis=0)
+        centres, chosen, levels = centres[inside], chosen[inside], levels[inside]
+        boxes = square_boxes(_consensus(centres, chosen), self.box_size_px).astype(np.float32)
+        return Detections(boxes, chosen.astype(np.float32), levels.astype(np.int8))
+
+
+def _consensus(centres: np.ndarray, scores: np.ndarray) -> np.ndarray:
+    out = np.empty((len(centres), 2))
+    order = np.argsort(centres[:, 0])
+    sorted_x = centres[order, 0]
+    first = np.searchsorted(sorted_x, centres[:, 0] - AGREEING_PX)
+    last = np.searchsorted(sorted_x, centres[:, 0] + AGREEING_PX, side="right")
+    for i, centre in enumerate(centres):
+        near = order[first[i] : last[i]]
+        offsets = centres[near] - centre
+        weights = scores[near] * (np.square(offsets).sum(axis=1) <= AGREEING_PX**2)
+        out[i] = centre + weights @ offsets / weights.sum()
+    return out
+
+
+def padded(features: UInt8[np.ndarray, "channel height width"]) -> UInt8[np.ndarray, "channel y x"]:
+    """Features with neutral rows and columns added below and to the right, up to multiples of `ALIGNMENT`."""
+    _, h, w = features.shape
+    out = np.full((len(features), -h % ALIGNMENT + h, -w % ALIGNMENT + w), NEUTRAL, np.uint8)
+    out[:, :h, :w] = features
+    return out
+
+
+def detect(engine: Engine, decoder: Decoder, features: UInt8[np.ndarray, "channel height width"]) -> Detections:
+    """Candidates of one frame; no filter but the decoder's floor has been applied."""
+    return decoder.decode(engine.run(padded(features)), *features.shape[1:])

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The engines that run a net: OpenVINO on the CPU (default) and torch (reference, training, GPU)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import UInt8
+
+from memtrack.detector import Engine, Maps
+from memtrack.errors import EngineUnavailableError
+
+ENGINES = ("openvino", "torch")
+
+
+class OpenVinoEngine:
+    """A net in OpenVINO's or ONNX form, compiled for the size of the first frame it sees."""
+
+    def __init__(self, path: Path, threads: int = 1) -> None:
+        try:
+            import openvino  # type: ignore[import-untyped]
+        except ImportError as error:
+            raise EngineUnavailableError(
+                "the CPU engine needs OpenVINO: install it with 'pip install openvino'"
+            ) from error
+        self._core = openvino.Core()
+        self._path, self._threads = path, threads
+        self._shape: tuple[int, ...] = ()
+        self._request: Any = None
+
+    def run(self, features: UInt8[np.ndarray, "channel y x"]) -> Maps:
+        """See `Engine.run`."""
+        if features.shape != self._shape:
+            net = self._core.read_model(self._path)
+            net.reshape([1, *features.shape])
+            hints = {"INFERENCE_NUM_THREADS": self._threads, "PERFORMANCE_HINT": "LATENCY"}
+            self._request = self._core.compile_model(net, "CPU", hints).create_infer_request()
+            self._shape = features.shape
+        out = self._request.infer([features[None]])[0]
+        return np.asarray(out[0], np.float32)
+
+
+class TorchEngine:
+    """The net as it was trained, on a CPU or a GPU."""
+
+    def __init__(self, architecture: Mapping[str, Any], channels: int, weights: Path, device: str = "cpu") -> None:
+        try:
+            import safetensors.torch
+            import torch
+        except ImportError as error:
+            raise EngineUnavailableError(
+                "the torch engine needs PyTorch: install it with 'pip install memtrack[torch]'"
+            ) from error
+        from memtrack.retinanet import build
+
+        self._torch, self._device = torch, device
+        self._net = build(architecture, channels)
+        self._net.load_state_dict(safetensors.torch.load_file(weights), strict=False)
+        self._net.eval().to(device)
+
+    def run(self, features: UInt8[np.ndarray, "channel y x"]) -> Maps:
+        """See `Engine.run`."""
+        with self._torch.inference_mode():
+            maps: Maps = self._net(self._torch.from_numpy(features[None]).to(self._device))[0].float().cpu().numpy()
+            return maps
+
+
+__all__ = ["ENGINES", "Engine", "OpenVinoEngine", "TorchEngine"]

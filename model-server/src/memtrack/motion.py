@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Motion Enhancer: motion features of a frame, as named channels of 8 bits (paper section "Motion Enhancer").
+
+A `FeatureSpec` names the channels and their order; it is stored with every model, and a model only runs on its own.
+Values are scaled by the film's own noise and texture, never by a frame's brightest pixel, so that one outlier does not
+change the rest (the authors stretch each frame's flow from its minimum to its maximum).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from jaxtyping import Float32, UInt8
+
+from memtrack.background import Background, aligned_frame, split_drift
+from memtrack.errors import SettingsError
+from memtrack.film import Film
+from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
+from memtrack.stabilisation import FilmMotion, overlap
+
+Image = Float32[np.ndarray, "h w"]
+Channel = UInt8[np.ndarray, "h w"]
+
+NEUTRAL = 128
+KNEE = 10.0
+"""Signed channels hold 128 + 127 v / (|v| + KNEE): 12 steps to a noise sd near zero, never saturated."""
+SHADING_PX = 8
+"""Shading of the deviation is removed at this fraction of the size, then smoothed over 4 such pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class FeatureSpec:
+    """Name, version and ordered channels of the features a model was trained on.
+
+    Channels: `grey` (frame less its shading, in units of the scene's texture), `deviation` (frame less temporal median,
+    signed, in units of the film's noise), `deviation+2`, `deviation-5` ... (the same of a neighbouring frame, brought
+    to this frame's place), `spread` (the pixel's temporal spread, in units of the noise), `abs_deviation`, `flow`
+    (Lucas-Kanade magnitude), `farneback` (the authors' flow, stretched per frame as they do), `frame` (grey levels),
+    `median` (the median frame itself, as the authors' shipped path has it).
+    """
+
+    name: str
+    version: int
+    channels: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        unknown = [c for c in self.channels if not _NEIGHBOUR.fullmatch(c) and c not in _CHANNELS]
+        if unknown or not self.channels:
+            known = ", ".join([*_CHANNELS, "deviation+n", "deviation-n"])
+            raise SettingsError(f"feature channels {unknown} are unknown: use some of {known}")
+
+
+_NEIGHBOUR = re.compile(r"deviation([+-]\d{1,2})?")
+
+
+class FilmFeatures:
+    """Features of any frame of one film, computed when asked for; keeps the deviations of a few frames.
+
+    A film read forwards from its first frame computes each deviation once.
+    """
+
+    def __init__(self, film: Film, motion: FilmMotion, background: Background, spec: FeatureSpec) -> None:
+        self.film, self.motion, self.background, self.spec = film, motion, background, spec
+        still = background.median
+        self._shading = _smooth(still)
+        texture = float(np.std(still - self._shading))
+        # Without noise (simulated or compressed films) residues of the scene are what a deviation must exceed.
+        rounding = 0.29 if film.frame(0).dtype.kind == "u" else 1e-4 * float(np.abs(still).mean()) + 1e-9
+        self.noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
+        self.texture = float(np.hypot(texture, self.noise))
+        self._spread = _signed(background.spread / np.float32(self.noise) - 1)
+        self._deviations: dict[int, Channel] = {}
+        offsets = [_offset(c) for c in spec.channels if _NEIGHBOUR.fullmatch(c)]
+        self._reach = max([abs(o) for o in offsets], default=0)
+
+    def frame(self, index: int) -> UInt8[np.ndarray, "channel height width"]:
+        """Channels of frame `index`, on the grid of its aligned frame: a place found at (x, y) lies at
+        (x, y) + the rest of the frame's drift (`split_drift`) of the film's own frame."""
+        aligned: list[Image] = []
+
+        def current() -> Image:
+            if not aligned:
+                aligned.append(aligned_frame(self.film, self.motion, index))
+            return aligned[0]
+
+        channels = [self._channel(name, index, current) for name in self.spec.channels]
+        for old in [k for k in self._deviations if abs(k - index) > self._reach]:
+            del self._deviations[old]
+        return np.stack(channels)
+
+    def _channel(self, name: str, index: int, current: Callable[[], Image]) -> Channel:
+        if _NEIGHBOUR.fullmatch(name):
+            return self._neighbour(index, _offset(name))
+        return _CHANNELS[name](self, index, current)
+
+    def _window(self, index: int) -> tuple[slice, slice]:
+        return self.background.window(self._place(index), self.film.height, self.film.width)
+
+    def _place(self, index: int) -> tuple[int, int]:
+        return split_drift(self.motion.drift[index])[0]
+
+    def _deviation_values(self, index: int) -> Image:
+        values = aligned_frame(self.film, self.motion, index) - self.background.median[self._window(index)]
+        values *= np.float32(1 / self.noise)
+        # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
+        unshaded: Image = values - _smooth(np.clip(values, -3, 3))
+        return unshaded
+
+    def _deviation(self, index: int) -> Channel:
+        if index not in self._deviations:
+            self._deviations[index] = _signed(self._deviation_values(index))
+        return self._deviations[index]
+
+    def _neighbour(self, index: int, offset: int) -> Channel:
+        other = min(max(index + offset, 0), self.film.frame_count - 1)
+        return self._at_place_of(index, other, self._deviation(other), NEUTRAL)
+
+    def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:
+        """`image` of frame `other` where the scene stands in frame `index`."""
+        shift = np.subtract(self._place(other), self._place(index))
+        if not shift.any():
+            return image
+        moved = np.full_like(image, missing)
+        target, source = overlap(image.shape, shift)
+        moved[target] = image[source]
+        return moved
+
+    def _grey(self, index: int, current: Callable[[], Image]) -> Channel:
+        return _signed((current() - self._shading[self._window(index)]) * np.float32(2 / self.texture))
+
+    def _spread_channel(self, index: int, current: Callable[[], Image]) -> Channel:
+        return self._spread[self._window(index)]
+
+    def _abs_deviation(self, index: int, current: Callable[[], Image]) -> Channel:
+        values = np.abs(self._deviation_values(index))
+        return _as_bytes(255 * values / (values + np.float32(KNEE)))
+
+    def _flow_with(self, flow: Callable[[Image, Image], Image], index: int, current: Callable[[], Image]) -> Image:
+        before = max(index - 1, 0)  # frame 0 has no predecessor and no flow; it is not dropped
+        previous = self._at_place_of(index, before, aligned_frame(self.film, self.motion, before), 0.0)
+        return flow(previous, current())
+
+    def _flow(self, index: int, current: Callable[[], Image]) -> Channel:
+        def flow(previous: Image, now: Image) -> Image:
+            return lucas_kanade_magnitude(previous, now, floor=self.noise**2)
+
+        magnitude = self._flow_with(flow, index, current)
+        return _as_bytes(255 * magnitude / (magnitude + 1))
+
+    def _farneback(self, index: int, current: Callable[[], Image]) -> Channel:
+        magnitude = self._flow_with(farneback_magnitude, index, current)
+        return _as_bytes(cv2.normalize(magnitude, np.empty_like(magnitude), 0, 255, cv2.NORM_MINMAX))
+
+    def _frame(self, index: int, current: Callable[[], Image]) -> Channel:
+        return self._levels(current())
+
+    def _median(self, index: int, current: Callable[[], Image]) -> Channel:
+        return self._levels(self.background.median[self._window(index)])
+
+    def _levels(self, image: Image) -> Channel:
+        middle = float(self.background.median.mean())
+        return _as_bytes(np.clip((image - middle) * np.float32(32 / self.texture) + NEUTRAL, 0, 255))
+
+
+def _offset(channel: str) -> int:
+    match = _NEIGHBOUR.fullmatch(channel)
+    return int(match[1]) if match and match[1] else 0
+
+
+def _signed(values: Image) -> Channel:
+    """Signed values squeezed into 8 bits around `NEUTRAL`, finely near zero and never saturated."""
+    size = np.abs(values)
+    size += np.float32(KNEE)
+    squeezed = np.asarray(cv2.divide(values, size, scale=127.0))
+    return _as_bytes(squeezed + np.float32(NEUTRAL + 0.5))
+
+
+def _as_bytes(values: np.ndarray) -> Channel:
+    squeezed: np.ndarray = values.astype(np.uint8)
+    return squeezed
+
+
+def _smooth(image: Image) -> Image:
+    h, w = image.shape
+    small = cv2.resize(image, (max(1, w // SHADING_PX), max(1, h // SHADING_PX)), interpolation=cv2.INTER_AREA)
+    return cv2.resize(cv2.GaussianBlur(small, (0, 0), 4), (w, h), interpolation=cv2.INTER_LINEAR)
+
+
+_CHANNELS: dict[str, Callable[[FilmFeatures, int, Callable[[], Image]], Channel]] = {
+    "grey": FilmFeatures._grey,
+    "spread": FilmFeatures._spread_channel,
+    "abs_deviation": FilmFeatures._abs_deviation,
+    "flow": FilmFeatures._flow,
+    "farneback": FilmFeatures._farneback,
+    "frame": FilmFeatures._frame,
+    "median": FilmFeatures._median,
+}
+
+MOTION = FeatureSpec(
+    "motion", 1, ("grey", "deviation", "deviation-2", "deviation+2", "deviation-6", "deviation+6", "spread")
+)
+"""Ours: the signed deviation of the frame and of four neighbours, the frame, and how restless each pixel is."""
+PAPER = FeatureSpec("paper", 1, ("frame", "flow", "abs_deviation"))
+"""The paper's three channels."""
+AUTHORS = FeatureSpec("authors", 1, ("frame", "farneback", "median"))
+"""What the MEMTrack authors' shipped code feeds its nets."""
+SPECS = {spec.name: spec for spec in (MOTION, PAPER, AUTHORS)}

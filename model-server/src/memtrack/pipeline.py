@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole method, film in, pruned detections out, frame by frame (paper section "Methods", parts 1 to 3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool
+
+from memtrack.background import split_drift, temporal_background
+from memtrack.detections import Detections, FrameDetections, Level
+from memtrack.detector import detect
+from memtrack.errors import SettingsError
+from memtrack.film import Film
+from memtrack.models import CRITERIA, Model
+from memtrack.motion import FilmFeatures
+from memtrack.progress import Report, Stage
+from memtrack.pruning import prune
+from memtrack.resampling import ScaledFilm
+from memtrack.stabilisation import measure_motion
+
+CELL_LENGTH_UM = 2.0
+"""Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
+
+
+@dataclass(frozen=True, slots=True)
+class DetectionSettings:
+    """How one film is to be processed.
+
+    model, version: of the registry; version None is the newest.
+    criterion: which of the model's thresholds to use, 'max_precision' (the paper's default) or 'max_f1'.
+    thresholds: lowest score a level (low, medium, high), each 0 to 1; overrides the criterion.
+    max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where boxes are 30.
+    nms_iou: of boxes that overlap more only the best stays; 0.7 in the paper.
+    stabilise: take stage drift out before the median.
+    region: where detections are wanted, of the film's height and width; None is everywhere.
+    cell_length_px: length of a bacterium in pixels of this film. None: from the pixel size and 2 um, or, without a
+        pixel size, such as the model knows.
+    engine, threads: see `Model.engine`.
+    """
+
+    model: str = "default"
+    version: str | None = None
+    criterion: str = "max_precision"
+    thresholds: tuple[float, float, float] | None = None
+    max_size_px: float = 35.0
+    nms_iou: float = 0.7
+    stabilise: bool = True
+    region: Bool[np.ndarray, "height width"] | None = None
+    cell_length_px: float | None = None
+    engine: str = "auto"
+    threads: int = 1
+
+    def __post_init__(self) -> None:
+        if self.criterion not in CRITERIA:
+            raise SettingsError(f"criterion {self.criterion!r} is unknown: use {' or '.join(CRITERIA)}")
+        if self.thresholds is not None and (
+            len(self.thresholds) != len(Level) or not all(0 <= t <= 1 for t in self.thresholds)
+        ):
+            raise SettingsError(f"thresholds {self.thresholds} are not three scores between 0 and 1")
+        if not 0 < self.max_size_px < math.inf:
+            raise SettingsError(f"max_size_px is {self.max_size_px}: give a size in pixels above 0")
+        if not 0 <= self.nms_iou <= 1:
+            raise SettingsError(f"nms_iou is {self.nms_iou}: give an overlap between 0 and 1")
+        if self.cell_length_px is not None and not 1 <= self.cell_length_px <= 200:
+            raise SettingsError(f"cell_length_px is {self.cell_length_px}: give a length of 1 to 200 pixels")
+        if not 1 <= self.threads <= 256:
+            raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
+
+
+def detect_film(film: Film, model: Model, settings: DetectionSettings, report: Report) -> Iterator[FrameDetections]:
+    """Detects the bacteria of each frame, in the order of the frames, none dropped.
+
+    Reads the film up to four times through `film.frame` and holds a few frames of it. `report(stage, done, total)` is
+    called at least once a frame in every stage and may raise `CancelledError`.
+
+    Raises:
+        FilmError: the film holds values that are not finite.
+        SettingsError: the region has another size than the film.
+        EngineUnavailableError: the model's computing library is not installed.
+    """
+    _check(film, settings)
+    scale = model_scale(film, model, settings)
+    scaled = film if scale == 1 else ScaledFilm(film, scale)
+    thresholds = settings.thresholds or model.card.thresholds[settings.criterion]
+    engine = model.engine(settings.engine, threads=settings.threads)
+
+    motion = measure_motion(scaled, stabilise=settings.stabilise, report=_at(report, Stage.STABILISING))
+    background = temporal_background(scaled, motion, report=_at(report, Stage.BACKGROUND))
+    features = FilmFeatures(scaled, motion, background, model.card.features)
+    with ThreadPoolExecutor(1, "features") as ahead:
+        upcoming = ahead.submit(features.frame, 0)
+        for i in range(film.frame_count):
+            report(Stage.DETECTING, i, film.frame_count)
+            current = upcoming.result()
+            if i + 1 < film.frame_count:
+                upcoming = ahead.submit(features.frame, i + 1)
+            candidates = detect(engine, model.card.decoder, current)
+            candidates = to_film(candidates, split_drift(motion.drift[i])[1], scale)
+            kept, counts = prune(
+                candidates,
+                thresholds=thresholds,
+                max_size_px=settings.max_size_px / scale,
+                nms_iou=settings.nms_iou,
+                region=settings.region,
+            )
+            drift_x, drift_y = motion.drift[i] / scale
+            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y))
+    report(Stage.DETECTING, film.frame_count, film.frame_count)
+
+
+def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
+    """Factor that brings the film's cells to a length the model knows; 1 where they have one already."""
+    length = settings.cell_length_px
+    if length is None and film.calibration.pixel_size_um is not None:
+        length = CELL_LENGTH_UM / film.calibration.pixel_size_um
+    if length is None:
+        return 1.0
+    low, high = model.card.cell_length_px
+    return float(np.clip(length, low, high)) / length
+
+
+def to_film(found: Detections, rest: tuple[float, float], scale: float) -> Detections:
+    """Detections on an aligned, scaled frame in the coordinates of the film's own frame."""
+    at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
+    return Detections(((at_model_scale + 0.5) / scale - 0.5).astype(np.float32), found.scores, found.levels)
+
+
+def _at(report: Report, stage: Stage) -> Callable[[int, int], None]:
+    return lambda done, total: report(stage, done, total)
+
+
+def _check(film: Film, settings: DetectionSettings) -> None:
+    region = settings.region
+    if region is not None and region.shape != (film.height, film.width):
+        raise SettingsError(
+            f"the region has {region.shape[1]} x {region.shape[0]} pixels, the film {film.width} x {film.height}: "
+            "give one of the film's size"
+        )

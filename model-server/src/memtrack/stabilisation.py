@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stage drift and lamp flicker of a film, measured against its own static scene.
+
+A drift of a few pixels or a flicker of 2 % ruins a per-pixel median, so both are taken out before it. The drift is
+found by iterated least squares on image gradients (Lucas and Kanade's equation for one shift of the whole field), with
+pixels that do not fit, the moving cells, weighted down, and the field cut into blocks whose estimates must agree:
+where they do not, as in clear water that shows nothing but swimmers, there is nothing to stabilise on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from jaxtyping import Float32, Float64
+
+from memtrack.film import Film
+from memtrack.resampling import read_shifted
+
+Progress = Callable[[int, int], None]
+Image = Float32[np.ndarray, "h w"]
+
+MAX_BLOCKS = 8
+MIN_EDGE = 24
+AGREEMENT_PX = 0.12
+"""Standard error of the blocks' common shift above which a film counts as having no static scene."""
+REFERENCE_FRAMES = 25
+
+
+@dataclass(frozen=True, slots=True)
+class FilmMotion:
+    """Per frame: `drift` (x, y), how far the scene stands from its place in frame 0, in pixels; `gain`, the factor
+    that brings the frame to the film's usual brightness."""
+
+    drift: Float64[np.ndarray, "frame 2"]
+    gain: Float64[np.ndarray, " frame"]
+
+
+def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMotion:
+    """Measures drift (when `stabilise`) and gain of every frame; `report(done, total)` is called once a frame and pass.
+
+    First pass at a quarter of the size against the first frame (or, far from it, a later one), second at half the
+    size against the median of the frames aligned so far.
+    """
+    count = film.frame_count
+    shrinks = stabilise and count > 1 and min(film.height, film.width) >= 4 * MIN_EDGE
+    passes = 2 if shrinks else 1
+    means = np.empty(count)
+    chain = _Chain()
+    drift = np.zeros((count, 2))
+    for i in range(count):
+        frame = film.frame(i).astype(np.float32)
+        means[i] = cv2.mean(frame)[0]
+        if shrinks:
+            drift[i] = chain.add(_band_pass(frame, 4)) * 4
+        report(i + 1, passes * count)
+    if shrinks:
+        drift = _refine(film, drift, report)
+    return FilmMotion(drift - drift[0], _gains(means))
+
+
+def _gains(means: Float64[np.ndarray, " frame"]) -> Float64[np.ndarray, " frame"]:
+    usual = float(np.median(means))
+    if usual <= 0 or means.min() <= 0.2 * usual or means.max() >= 5 * usual:
+        return np.ones(len(means))  # no lamp does that: dark or signed images have no brightness to compare
+    return usual / means
+
+
+def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> Float64[np.ndarray, "n 2"]:
+    count = film.frame_count
+    chosen = np.unique(np.linspace(0, count - 1, REFERENCE_FRAMES).astype(int))
+    # The reference covers the field of the middle of the drift, where most frames overlap it.
+    origin = np.median(drift, axis=0)
+    aligned = [_aligned(_band_pass(film.frame(int(i)).astype(np.float32), 2), (drift[i] - origin) / 2) for i in chosen]
+    with np.errstate(all="ignore"):
+        reference = np.nanmedian(np.stack(aligned), axis=0) if len(aligned) > 1 else aligned[0]
+    reference = np.nan_to_num(reference).astype(np.float32)
+    refined, errors = drift.copy(), np.zeros(count)
+    for i in range(count):
+        image = _band_pass(film.frame(i).astype(np.float32), 2)
+        shift, errors[i] = register(reference, image, (drift[i] - origin) / 2, steps=3)
+        refined[i] = 2 * shift + origin
+        report(count + i + 1, 2 * count)
+    if np.median(errors) * 2 > AGREEMENT_PX:
+        return np.zeros_like(drift)
+    lost = errors * 2 > 4 * AGREEMENT_PX
+    if lost.any() and not lost.all():
+        good = np.flatnonzero(~lost)
+        for axis in range(2):
+            refined[lost, axis] = np.interp(np.flatnonzero(lost), good, refined[good, axis])
+    return refined
+
+
+class _Chain:
+    """Drift of successive images against the first; a new reference is taken where too little of it is left."""
+
+    def __init__(self) -> None:
+        self._reference: Image | None = None
+        self._origin = np.zeros(2)
+        self._last = np.zeros(2)
+        self._usual_error = np.inf
+
+    def add(self, image: Image) -> Float64[np.ndarray, " 2"]:
+        if self._reference is None:
+            self._reference = image
+            return np.zeros(2)
+        shift, error = register(self._reference, image, self._last - self._origin, steps=5)
+        if error > 3 * self._usual_error:
+            jump, _ = cv2.phaseCorrelate(self._reference, image, cv2.createHanningWindow(image.shape[::-1], cv2.CV_32F))
+            retried, retried_error = register(self._reference, image, np.array(jump), steps=5)
+            if retried_error < error:
+                shift, error = retried, retried_error
+        self._usual_error = error if np.isinf(self._usual_error) else 0.9 * self._usual_error + 0.1 * error
+        self._last = self._origin + shift
+        if np.any(np.abs(shift) > 0.2 * np.array(image.shape[::-1])):
+            self._reference, self._origin = image, self._last
+        return self._last
+
+
+def _band_pass(frame: Image, shrink: int) -> Image:
+    """`frame` at 1/`shrink` of its size without noise finer than a pixel and without shading."""
+    h, w = (edge // shrink for edge in frame.shape)
+    small = cv2.resize(frame[: h * shrink, : w * shrink], (w, h), interpolation=cv2.INTER_AREA)
+    return cv2.GaussianBlur(small, (0, 0), 1.0) - cv2.blur(small, (17, 17))
+
+
+def _aligned(image: Image, drift: Float64[np.ndarray, " 2"]) -> Image:
+    """`image` read at (x + drift), NaN where that lies outside it."""
+    whole = np.rint(drift).astype(int)
+    moved = read_shifted(image, *(drift - whole))
+    out = np.full_like(image, np.nan)
+    target, source = overlap(image.shape, whole)
+    out[target] = moved[source]
+    return out
+
+
+Window = tuple[slice, slice]
+
+
+def overlap(shape: tuple[int, ...], shift: np.ndarray) -> tuple[Window, Window]:
+    """Windows of a still image and of one whose scene stands `shift` (x, y) whole pixels further that show the same."""
+    dx, dy = (int(s) for s in shift)
+    h, w = shape[:2]
+    target = (slice(max(0, -dy), max(0, min(h, h - dy))), slice(max(0, -dx), max(0, min(w, w - dx))))
+    source = (slice(max(0, dy), max(0, min(h, h + dy))), slice(max(0, dx), max(0, min(w, w + dx))))
+    return target, source
+
+
+def register(
+    reference: Image, image: Image, start: Float64[np.ndarray, " 2"], *, steps: int
+) -> tuple[Float64[np.ndarray, " 2"], float]:
+    """Shift (x, y) of `image`'s scene against `reference`'s, and the standard error its blocks imply, in pixels.
+
+    Converges from a `start` within about 3 px. An infinite error: the images show nothing in common.
+    """
+    shift, error = np.asarray(start, np.float64), np.inf
+    for _ in range(steps):
+        whole = np.rint(shift).astype(int)
+        target, source = overlap(reference.shape, whole)
+        still, moved = reference[target], read_shifted(image, *(shift - whole))[source]
+        if min(still.shape) < MIN_EDGE // 2:
+            return np.asarray(start, np.float64), np.inf
+        change, error = _block_shift(still, moved)
+        shift = shift + np.clip(change, -2, 2)
+        if np.abs(change).max() < 0.005:
+            break
+    return shift, error
+
+
+def _block_shift(still: Image, moved: Image) -> tuple[Float64[np.ndarray, " 2"], float]:
+    """One least-squares step: the shift most blocks agree on, and its standard error."""
+    gx = cv2.Scharr(still, cv2.CV_32F, 1, 0, scale=1 / 32)
+    gy = cv2.Scharr(still, cv2.CV_32F, 0, 1, scale=1 / 32)
+    residual = still - moved
+    scale = 1.4826 * float(np.median(np.abs(residual[::2, ::3]))) + 1e-6
+    weight = 1 / (1 + np.square(residual / (2.5 * scale)))
+    gxw, gyw = gx * weight, gy * weight
+    blocks = tuple(max(1, min(MAX_BLOCKS, edge // (MIN_EDGE // 2))) for edge in still.shape[::-1])
+
+    def block_mean(values: Image) -> Float64[np.ndarray, " b"]:
+        return cv2.resize(values, blocks, interpolation=cv2.INTER_AREA).ravel().astype(np.float64)
+
+    a, b, c = block_mean(gxw * gx), block_mean(gxw * gy), block_mean(gyw * gy)
+    u, v = block_mean(gxw * residual), block_mean(gyw * residual)
+    ridge = 0.02 * (a + c).mean() + 1e-9
+    determinant = (a + ridge) * (c + ridge) - b * b
+    shifts = np.stack([(c + ridge) * u - b * v, (a + ridge) * v - b * u], axis=1) / determinant[:, None]
+    trust = np.minimum(a + c, np.median(a + c) + 1e-12)  # one bright cell must not outvote the scene
+    trust /= trust.sum()
+    common = np.array([_weighted_median(shifts[:, axis], trust) for axis in range(2)])
+    spread = max(_weighted_median(np.abs(shifts[:, axis] - common[axis]), trust) for axis in range(2))
+    close = np.abs(shifts - common).max(axis=1) <= 2.5 * spread + 1e-9
+    mean = np.average(shifts[close], axis=0, weights=trust[close])
+    effective = 1 / np.square(trust).sum()
+    return mean, 1.4826 * spread / float(np.sqrt(effective))
+
+
+def _weighted_median(values: Float64[np.ndarray, " n"], weights: Float64[np.ndarray, " n"]) -> float:
+    order = np.argsort(values)
+    return float(values[order][np.searchsorted(np.cumsum(weights[order]), 0.5 * weights.sum())])

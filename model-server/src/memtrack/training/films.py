@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The films of a training: simulated ones by family and seed, kept on disk as samples, and annotated ones of a user."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from memtrack.motion import FeatureSpec
+from memtrack.simulation.families import draw_recipe
+from memtrack.simulation.film import simulate
+from memtrack.training.samples import FilmSamples, extract
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedSet:
+    """Films of one family: `count` films of `size` x `size` pixels from `seed` on, `frames` frames kept of each."""
+
+    family: str
+    count: int
+    seed: int
+    size: int = 320
+    frames: int = 10
+
+
+def simulated_samples(
+    sets: Sequence[SimulatedSet],
+    spec: FeatureSpec,
+    cache: Path,
+    *,
+    workers: int = 1,
+    report: Callable[[int, int], None] = lambda done, total: None,
+) -> list[FilmSamples]:
+    """Samples of every film of `sets`; those made before, for the same set, spec and code, are read from `cache`.
+
+    Features are mapped from disk, so that a training needs little memory.
+    """
+    jobs = [(s, k, spec, cache) for s in sets for k in range(s.count)]
+    paths = []
+    with ProcessPoolExecutor(workers) as pool:
+        for done, path in enumerate(map(_make, jobs) if workers == 1 else pool.map(_make, jobs, chunksize=4)):
+            paths.append(path)
+            report(done + 1, len(jobs))
+    return [_load(path, job[0].family) for path, job in zip(paths, jobs, strict=True)]
+
+
+def _make(job: tuple[SimulatedSet, int, FeatureSpec, Path]) -> Path:
+    films, k, spec, cache = job
+    path = cache / f"{_key(films, spec)}-{films.seed + k}"
+    if path.is_dir():
+        return path
+    rng = np.random.default_rng([films.seed + k, _number(films.family)])
+    recipe = draw_recipe(films.family, rng, width=films.size, height=films.size)
+    made = simulate(recipe, int(rng.integers(2**31)))
+    stabilise = bool(made.drift.any()) or rng.random() < 0.5
+    samples = extract(made.film, made.truth, spec, frames=films.frames, rng=rng, stabilise=stabilise)
+    partial = path.with_name(f"{path.name}.{os.getpid()}")
+    partial.mkdir(parents=True)
+    np.save(partial / "features.npy", samples.features)
+    counts = np.array([len(rows) for rows in samples.truth])
+    np.savez(partial / "truth.npz", rows=np.concatenate(samples.truth), counts=counts)
+    os.replace(partial, path)
+    return path
+
+
+def _load(path: Path, family: str) -> FilmSamples:
+    features = np.load(path / "features.npy", mmap_mode="r")
+    with np.load(path / "truth.npz") as stored:
+        rows = np.split(stored["rows"], np.cumsum(stored["counts"])[:-1])
+    return FilmSamples(features, tuple(rows), family)
+
+
+def _number(family: str) -> int:
+    return int.from_bytes(hashlib.sha256(family.encode()).digest()[:4], "little")
+
+
+def _key(films: SimulatedSet, spec: FeatureSpec) -> str:
+    code = hashlib.sha256()
+    for folder in ("simulation", "."):
+        for source in sorted((Path(__file__).parents[1] / folder).glob("*.py")):
+            if source.name in _SHAPING:
+                code.update(source.read_bytes())
+    what = json.dumps([films.family, films.size, films.frames, asdict(spec)])
+    return f"{films.family}-{hashlib.sha256(code.digest() + what.encode()).hexdigest()[:12]}"
+
+
+_SHAPING = {
+    *("film.py", "families.py", "optics.py", "scenes.py", "swimming.py"),
+    *("stabilisation.py", "background.py", "motion.py", "flow.py", "resampling.py"),
+}
+"""Source files that change what a sample holds."""

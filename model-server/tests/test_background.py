@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from memtrack.background import Background, _order_statistics, aligned_frame, split_drift, temporal_background
+from memtrack.errors import FilmError
+from memtrack.film import ArrayFilm
+from memtrack.stabilisation import FilmMotion
+
+
+def still(count: int) -> FilmMotion:
+    return FilmMotion(np.zeros((count, 2)), np.ones(count))
+
+
+def background_of(frames: np.ndarray, motion: FilmMotion | None = None) -> Background:
+    film = ArrayFilm(frames)
+    return temporal_background(film, motion or still(len(frames)), report=lambda done, total: None)
+
+
+def test_median_and_spread_of_a_five_by_five_film() -> None:
+    frames = np.full((5, 5, 5), 100, np.uint8)
+    frames[:, 2, 3] = [10, 20, 200, 40, 50]
+    made = background_of(frames)
+    assert made.median[2, 3] == pytest.approx(40, abs=0.01)
+    assert np.abs(np.delete(made.median.ravel(), 13) - 100).max() < 0.01
+    low, high = np.percentile(frames[:, 2, 3], [15.87, 84.13])
+    assert made.spread[2, 3] == pytest.approx((high - low) / 2, rel=0.01)
+    assert made.spread[0, 0] == 0
+
+
+@given(st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_order_statistics_equal_numpys(count: int, seed: int) -> None:
+    stack = np.random.default_rng(seed).integers(0, 60000, (count, 4, 3), np.uint16)
+    middle, width = _order_statistics(stack)
+    np.testing.assert_allclose(middle, np.median(stack, axis=0), rtol=1e-5)
+    low, high = np.percentile(stack, [15.87, 84.13], axis=0)
+    np.testing.assert_allclose(width, (high - low) / 2, rtol=1e-4, atol=0.5)
+
+
+def test_the_canvas_holds_all_that_a_drifting_film_showed() -> None:
+    scene = np.random.default_rng(0).integers(0, 255, (30, 40), np.uint8)
+    # The scene moves right by 3 px a frame, so the field moves left over it.
+    frames = np.stack([scene[5:15, 20 - 3 * i : 32 - 3 * i] for i in range(5)])
+    drift = np.stack([3.0 * np.arange(5), np.zeros(5)], axis=1)
+    made = background_of(frames, FilmMotion(drift, np.ones(5)))
+    assert made.median.shape == (10, 24)
+    assert made.origin == (-12, 0)
+    np.testing.assert_allclose(made.median, scene[5:15, 8:32], atol=0.01)
+    for i in range(5):
+        np.testing.assert_allclose(made.median[made.window((3 * i, 0), 10, 12)], frames[i], atol=0.01)
+
+
+def test_sixteen_bit_and_float_films_keep_their_range() -> None:
+    rng = np.random.default_rng(3)
+    for frames in (rng.integers(1000, 60000, (9, 6, 7), np.uint16), rng.normal(0, 1e-3, (9, 6, 7)).astype(np.float32)):
+        exact = np.median(frames, axis=0)
+        assert np.abs(background_of(frames).median - exact).max() < 3e-4 * float(np.ptp(frames))
+
+
+def test_strips_give_the_same_as_one_piece(monkeypatch: pytest.MonkeyPatch) -> None:
+    frames = np.random.default_rng(4).integers(0, 255, (7, 23, 11), np.uint8)
+    whole = background_of(frames)
+    monkeypatch.setattr("memtrack.background.STRIP_BYTES", 7 * 11 * 2 * 5)
+    np.testing.assert_array_equal(background_of(frames).median, whole.median)
+
+
+def test_a_nan_is_refused_with_its_frame() -> None:
+    frames = np.zeros((3, 4, 4), np.float32)
+    frames[2, 1, 1] = np.nan
+    with pytest.raises(FilmError, match="frame 2 holds values that are not finite"):
+        aligned_frame(ArrayFilm(frames), still(3), 2)
+
+
+@given(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4))
+def test_a_drift_is_its_whole_pixels_and_its_rest(x: float, y: float) -> None:
+    whole, rest = split_drift(np.array([x, y]))
+    assert np.abs(rest).max() <= 0.5
+    np.testing.assert_allclose(np.add(whole, rest), [x, y], atol=1e-9)

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import numpy as np
+import pytest
+
+from memtrack.detector import Decoder, detect, padded
+from memtrack.engines import OpenVinoEngine
+from memtrack.errors import EngineUnavailableError, SettingsError
+from memtrack.models import load_model
+from memtrack.motion import NEUTRAL
+
+
+class Fixed:
+    """An engine whose answer is known."""
+
+    def __init__(self, maps: np.ndarray) -> None:
+        self.maps = maps
+
+    def run(self, features: np.ndarray) -> np.ndarray:
+        assert features.shape[1] % 16 == 0
+        assert features.shape[2] % 16 == 0
+        return self.maps
+
+
+def silent(rows: int = 8, columns: int = 12) -> np.ndarray:
+    maps = np.zeros((6, rows, columns), np.float32)
+    maps[0] = -10
+    return maps
+
+
+def test_a_place_and_its_offset_become_a_box_of_the_cards_size() -> None:
+    maps = silent()
+    maps[0, 3, 5] = 2.0
+    maps[1:4, 3, 5] = [0.1, 0.7, 0.2]
+    maps[4:, 3, 5] = [0.25, -0.5]
+    found = Decoder(slope=2.0, offset=-1.0, box_size_px=20).decode(maps, 32, 48)
+    np.testing.assert_allclose(found.boxes, [[5.25 * 4 + 1.5 - 10, 2.5 * 4 + 1.5 - 10, 32.5, 21.5]])
+    np.testing.assert_allclose(found.scores, 1 / (1 + np.exp(-3.0)), rtol=1e-6)
+    assert list(found.levels) == [1]
+
+
+def test_places_that_point_to_one_bacterium_agree_on_a_mean_weighted_by_score() -> None:
+    maps = silent()
+    maps[0, 3, 5], maps[4, 3, 5] = 2.0, 0.5  # points to x = 23.5
+    maps[0, 3, 6], maps[4, 3, 6] = 0.0, -0.25  # points to x = 24.5
+    maps[0, 3, 9] = 0.0  # another bacterium
+    found = Decoder().decode(maps, 32, 48)
+    centres = (found.boxes[:, 0] + found.boxes[:, 2]) / 2
+    strong = 1 / (1 + np.exp(-2.0))
+    expected = (23.5 * strong + 24.5 * 0.5) / (strong + 0.5)
+    np.testing.assert_allclose(centres, [expected, expected, 37.5], atol=1e-5)
+
+
+def test_nothing_is_found_in_the_padding() -> None:
+    maps = silent()
+    maps[0] = 5
+    found = Decoder().decode(maps, 10, 21)
+    centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    assert len(found) == 15  # places 0 to 4 by 0 to 2 have centres in the frame
+    assert centres.max(axis=0)[0] < 21
+    assert centres.max(axis=0)[1] < 10
+
+
+def test_features_are_padded_with_neutral_values() -> None:
+    features = np.zeros((2, 17, 16), np.uint8)
+    out = padded(features)
+    assert out.shape == (2, 32, 16)
+    assert (out[:, 17:] == NEUTRAL).all()
+    assert not out[:, :17].any()
+
+
+def test_a_flood_of_candidates_is_cut_to_the_best() -> None:
+    maps = np.zeros((6, 100, 100), np.float32)
+    maps[0] = np.linspace(-1, 1, 10000).reshape(100, 100)
+    found = detect(Fixed(maps), Decoder(), np.zeros((1, 400, 400), np.uint8))
+    assert len(found) == 1500
+    assert found.scores.min() > 1 / (1 + np.exp(-0.69))
+
+
+def test_both_engines_of_the_shipped_model_agree() -> None:
+    pytest.importorskip("torch")
+    model = load_model()
+    rng = np.random.default_rng(0)
+    features = np.full((len(model.card.features.channels), 64, 96), NEUTRAL, np.uint8)
+    features[:6] = np.clip(rng.normal(NEUTRAL, 10, (6, 64, 96)), 0, 255)
+    features[1, 30:36, 40:46] = 220
+    reference, quick = model.engine("torch").run(features), model.engine("openvino").run(features)
+    assert reference.shape == quick.shape == (6, 16, 24)
+    score = 1 / (1 + np.exp(-reference[0]))
+    assert score.max() > 0.3
+    # 8-bit arithmetic: scores agree to a tenth, the centre of what was found to half a pixel.
+    assert np.abs(1 / (1 + np.exp(-quick[0])) - score).max() < 0.12
+    assert np.abs(quick[4:] - reference[4:])[:, score > 0.3].max() * 4 < 0.75
+
+
+def test_an_engine_nobody_made_is_refused() -> None:
+    with pytest.raises(SettingsError, match="engine 'tpu' is unknown"):
+        load_model().engine("tpu")
+
+
+def test_a_missing_openvino_is_said_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "openvino", None)
+    with pytest.raises(EngineUnavailableError, match="install it with"):
+        OpenVinoEngine(load_model().folder / "openvino.xml")

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole method on simulated films whose truth is known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from memtrack.detections import FilterCounts, FrameDetections
+from memtrack.errors import CancelledError, FilmError, SettingsError
+from memtrack.film import ArrayFilm, Calibration
+from memtrack.models import Model, load_model
+from memtrack.pipeline import DetectionSettings, detect_film, model_scale
+from memtrack.progress import Stage
+from memtrack.resampling import ScaledFilm
+from memtrack.simulation.film import Recipe, SimulatedFilm, simulate
+from memtrack.simulation.optics import Look
+from memtrack.simulation.swimming import Gait
+
+BRIGHT = Look(length=8, width=4, contrast=60, halo=0.15, halo_radius=10, flip=0, relief=0, relief_angle=0)
+GEL = Recipe(
+    width=256,
+    height=224,
+    frames=40,
+    texture=14,
+    read_noise=3,
+    shot_noise=2,
+    gaits=(Gait.SWIMMING,) * 6 + (Gait.HOPPING,) * 8,
+    looks=tuple(replace(BRIGHT, contrast=c) for c in (60, -50, 70, 45, -60, 55, 60, -50, 70, 45, -60, 55, 50, -45)),
+)
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return load_model()
+
+
+@pytest.fixture(scope="module")
+def gel() -> SimulatedFilm:
+    return simulate(GEL, 3)
+
+
+def run(film: ArrayFilm | ScaledFilm, model: Model, **settings: object) -> list[FrameDetections]:
+    wanted = DetectionSettings(criterion="max_f1", **settings)  # type: ignore[arg-type]
+    return list(detect_film(film, model, wanted, lambda stage, done, total: None))
+
+
+def judge(made: SimulatedFilm, found: list[FrameDetections], scale: float = 1.0) -> tuple[float, float, float]:
+    """Precision, recall and centre error (RMS, pixels) within 8 px, ignored bacteria aside."""
+    hits, truths, wrong, errors = 0, 0, 0, []
+    truth = made.truth
+    for frame in found:
+        rows = np.flatnonzero(truth.frames == frame.frame)
+        places = np.stack([truth.x[rows], truth.y[rows]], axis=1)
+        real = ~truth.ignored[rows]
+        centres = ((frame.detections.boxes[:, :2] + frame.detections.boxes[:, 2:]) / 2 + 0.5) * scale - 0.5
+        distance = np.linalg.norm(places[:, None] - centres[None], axis=2) if len(rows) else np.zeros((0, len(centres)))
+        taken = np.zeros(len(centres), bool)
+        for k in np.flatnonzero(real):
+            if len(centres) and np.where(taken, np.inf, distance[k]).min() < 8:
+                j = int(np.where(taken, np.inf, distance[k]).argmin())
+                taken[j] = True
+                errors.append(distance[k, j])
+                hits += 1
+        truths += int(real.sum())
+        near_ignored = (distance[~real] < 12).any(axis=0)
+        wrong += int((~taken & ~near_ignored).sum())
+    return hits / max(hits + wrong, 1), hits / truths, float(np.sqrt(np.mean(np.square(errors))))
+
+
+def test_bacteria_in_a_gel_are_found_exactly(gel: SimulatedFilm, model: Model) -> None:
+    precision, recall, error = judge(gel, run(gel.film, model))
+    assert precision > 0.9
+    assert recall > 0.85
+    assert error < 1.2
+
+
+def test_drift_and_flicker_cost_little_and_boxes_stay_in_the_film_the_user_sees(model: Model) -> None:
+    moving = simulate(replace(GEL, drift_per_frame=(0.12, -0.08), jitter=0.2, flicker=0.02), 3)
+    found = run(moving.film, model)
+    precision, recall, error = judge(moving, found)
+    assert precision > 0.85
+    assert recall > 0.8
+    assert error < 1.3
+    drift = np.array([[f.drift_x, f.drift_y] for f in found])
+    assert np.abs(drift - moving.drift).max() < 0.25
+    assert np.abs(moving.drift).max() > 3
+
+
+def test_stabilisation_pays_and_can_be_turned_off(model: Model) -> None:
+    moving = simulate(replace(GEL, drift_per_frame=(0.12, -0.08), jitter=0.2), 3)
+    without, with_it = run(moving.film, model, stabilise=False), run(moving.film, model)
+    assert not any(f.drift_x or f.drift_y for f in without)
+    assert judge(moving, without)[1] < judge(moving, with_it)[1] - 0.03
+
+
+def test_an_empty_film_stays_empty(model: Model) -> None:
+    empty = simulate(replace(GEL, gaits=(), looks=(), drift_per_frame=(0.05, 0.05), flicker=0.02), 5)
+    assert sum(len(f.detections) for f in run(empty.film, model)) <= 2
+
+
+def test_every_frame_is_answered_in_order_and_counted(gel: SimulatedFilm, model: Model) -> None:
+    found = run(gel.film, model)
+    assert [f.frame for f in found] == list(range(40))
+    assert all(f.counts.kept == len(f.detections) for f in found)
+    total = sum((f.counts for f in found), FilterCounts())
+    assert total.candidates > total.kept > 0
+    assert len(found[0].detections) > 0
+
+
+def test_sixteen_bits_and_float_find_what_eight_bits_find(gel: SimulatedFilm, model: Model) -> None:
+    wide = ArrayFilm((gel.film.frames.astype(np.uint16) * 15 + 100), gel.film.calibration)
+    real = ArrayFilm((gel.film.frames.astype(np.float32) / 255), gel.film.calibration)
+    expected = sum(len(f.detections) for f in run(gel.film, model))
+    for film in (wide, real):
+        assert sum(len(f.detections) for f in run(film, model)) == pytest.approx(expected, rel=0.05)
+
+
+def test_a_film_at_twice_the_scale_is_brought_to_the_models(gel: SimulatedFilm, model: Model) -> None:
+    large = ScaledFilm(gel.film, 3.0)
+    assert model_scale(large, model, DetectionSettings()) < 0.7
+    precision, recall, error = judge(gel, run(large, model), scale=1 / 3)
+    assert precision > 0.85
+    assert recall > 0.75
+    assert error < 1.5
+
+
+def test_a_stated_cell_length_takes_the_place_of_a_calibration(model: Model) -> None:
+    film = ArrayFilm(np.zeros((1, 8, 8), np.uint8), Calibration(0.01, None))
+    low, high = model.card.cell_length_px
+    assert model_scale(film, model, DetectionSettings(cell_length_px=(low + high) / 2)) == 1
+    assert model_scale(film, model, DetectionSettings(cell_length_px=2 * high)) == pytest.approx(0.5)
+    assert model_scale(film, model, DetectionSettings()) == pytest.approx(high / 200)
+    assert model_scale(replace(film, calibration=Calibration()), model, DetectionSettings()) == 1
+
+
+def test_a_region_keeps_what_is_in_it(gel: SimulatedFilm, model: Model) -> None:
+    region = np.zeros((224, 256), bool)
+    region[:, :128] = True
+    found = run(gel.film, model, region=region)
+    centres = np.concatenate([(f.detections.boxes[:, 0] + f.detections.boxes[:, 2]) / 2 for f in found])
+    assert len(centres) > 20
+    assert centres.max() < 128.5
+    assert sum(f.counts.outside_region for f in found) > 20
+
+
+@pytest.mark.parametrize("shape", [(1, 1, 1), (1, 40, 50), (3, 5, 300), (2, 96, 96)])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_films_of_any_shape_and_type_run(shape: tuple[int, int, int], dtype: type, model: Model) -> None:
+    frames = np.random.default_rng(0).integers(0, 255, shape).astype(dtype)
+    assert len(run(ArrayFilm(frames), model)) == shape[0]
+
+
+def test_a_film_of_one_value_runs(model: Model) -> None:
+    assert all(not len(f.detections) for f in run(ArrayFilm(np.full((3, 50, 50), 9, np.uint16)), model))
+
+
+def test_infinite_values_are_refused(model: Model) -> None:
+    frames = np.zeros((3, 50, 50), np.float32)
+    frames[1, 2, 3] = np.inf
+    with pytest.raises(FilmError, match="frame 1 holds values that are not finite"):
+        run(ArrayFilm(frames), model)
+
+
+def test_progress_is_reported_for_each_frame_and_stage(gel: SimulatedFilm, model: Model) -> None:
+    calls: list[tuple[Stage, int, int]] = []
+    list(detect_film(gel.film, model, DetectionSettings(), lambda *call: calls.append(call)))
+    for stage in (Stage.STABILISING, Stage.BACKGROUND, Stage.DETECTING):
+        mine = [(done, total) for s, done, total in calls if s is stage]
+        assert len(mine) >= 40
+        assert mine[-1][0] == mine[-1][1]
+        assert mine == sorted(mine)
+
+
+@pytest.mark.parametrize("stage", [Stage.STABILISING, Stage.BACKGROUND, Stage.DETECTING])
+def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, model: Model) -> None:
+    def report(at: Stage, done: int, total: int) -> None:
+        if at is stage:
+            raise CancelledError("the caller no longer wants the result")
+
+    with pytest.raises(CancelledError):
+        list(detect_film(gel.film, model, DetectionSettings(), report))
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"criterion": "best"}, "criterion 'best' is unknown"),
+        ({"thresholds": (0.5, 0.5, 1.5)}, "are not three scores between 0 and 1"),
+        ({"max_size_px": 0.0}, "max_size_px is 0.0"),
+        ({"nms_iou": -0.1}, "nms_iou is -0.1"),
+        ({"cell_length_px": 0.5}, "cell_length_px is 0.5"),
+        ({"threads": 0}, "threads is 0"),
+    ],
+)
+def test_settings_out_of_range_are_refused_with_their_value(settings: dict[str, object], message: str) -> None:
+    with pytest.raises(SettingsError, match=message):
+        DetectionSettings(**settings)  # type: ignore[arg-type]
+
+
+def test_a_region_of_another_size_is_refused(gel: SimulatedFilm, model: Model) -> None:
+    with pytest.raises(SettingsError, match="the region has 10 x 20 pixels, the film 256 x 224"):
+        run(gel.film, model, region=np.ones((20, 10), bool))
