@@ -16,14 +16,13 @@ final class Failures {
             case INVALID_ARGUMENT, NOT_FOUND, RESOURCE_EXHAUSTED, FAILED_PRECONDITION ->
                 said.isBlank()
                         ? "The server refused the film (%s) and did not say why.".formatted(status.getCode())
-                        : said;
+                        : asSentence(said);
             case UNAUTHENTICATED, PERMISSION_DENIED ->
                 "The server did not accept our token: for a server given"
                         + " by its address, set MEMTRACK_TOKEN to the token it was started with.";
-            case UNAVAILABLE ->
-                "The connection to the server broke: it was ended or has crashed; run again,"
-                        + " and if that fails too, use \"MEMTrack Check Installation\" (%s).".formatted(said);
-            case DEADLINE_EXCEEDED ->
+            case UNAVAILABLE -> "The server cannot be reached, or was ended while it worked: run again, and if"
+                            + " that fails too, use \"MEMTrack Check Installation\".";
+                    case DEADLINE_EXCEEDED ->
                 "The server did not answer in time: the computer may be too busy; run"
                         + " again, or restart ImageJ to start a new server.";
             case UNIMPLEMENTED ->
