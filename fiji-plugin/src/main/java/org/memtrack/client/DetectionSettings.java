@@ -32,11 +32,11 @@ public record DetectionSettings(
         @Nullable Double cellLengthPx,
         @Nullable RegionMask region) {
 
+    private static final Pattern NAME = Pattern.compile("[a-z0-9_.-]{0,64}");
+
     /** The default model, at maximum precision, over the whole film. */
     public static final DetectionSettings DEFAULTS =
             new DetectionSettings("", "", Criterion.MAXIMUM_PRECISION, null, null, null, true, null, null);
-
-    private static final Pattern NAME = Pattern.compile("[a-z0-9_.-]{0,64}");
 
     public DetectionSettings {
         if (!NAME.matcher(model).matches()) {

@@ -20,9 +20,10 @@ final class Failures {
             case UNAUTHENTICATED, PERMISSION_DENIED ->
                 "The server did not accept our token: for a server given"
                         + " by its address, set MEMTRACK_TOKEN to the token it was started with.";
-            case UNAVAILABLE -> "The server cannot be reached, or was ended while it worked: run again, and if"
-                            + " that fails too, use \"MEMTrack Check Installation\".";
-                    case DEADLINE_EXCEEDED ->
+            case UNAVAILABLE ->
+                "The server cannot be reached, or was ended while it worked: run again, and if"
+                        + " that fails too, use \"MEMTrack Check Installation\".";
+            case DEADLINE_EXCEEDED ->
                 "The server did not answer in time: the computer may be too busy; run"
                         + " again, or restart ImageJ to start a new server.";
             case UNIMPLEMENTED ->

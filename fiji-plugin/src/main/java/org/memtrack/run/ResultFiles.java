@@ -7,9 +7,9 @@ import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.util.List;
-import java.util.stream.Stream;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.formats.Mdf;
+import org.memtrack.formats.MotilityCsv;
 import org.memtrack.formats.Provenance;
 import org.memtrack.formats.TrackCsv;
 import org.memtrack.formats.TrackMateXml;
@@ -20,11 +20,12 @@ import org.memtrack.video.Film;
  *
  * @param xml for TrackMate
  * @param csv table, one row a point
+ * @param motility table, one row a track
  * @param mdf for MTrackJ
  * @param picture last frame with the tracks, PNG
  * @param provenance settings, versions and counts, JSON; written last
  */
-public record ResultFiles(Path xml, Path csv, Path mdf, Path picture, Path provenance) {
+public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path picture, Path provenance) {
 
     /**
      * Where the results of a film will lie; the folder is made if it is missing.
@@ -37,6 +38,7 @@ public record ResultFiles(Path xml, Path csv, Path mdf, Path picture, Path prove
         ResultFiles files = new ResultFiles(
                 folder.resolve(name + ".xml"),
                 folder.resolve(name + ".csv"),
+                folder.resolve(name + ".motility.csv"),
                 folder.resolve(name + ".mdf"),
                 folder.resolve(name + ".png"),
                 folder.resolve(name + ".json"));
@@ -53,7 +55,7 @@ public record ResultFiles(Path xml, Path csv, Path mdf, Path picture, Path prove
 
     /** All of them. */
     public List<Path> all() {
-        return List.of(xml, csv, mdf, picture, provenance);
+        return List.of(xml, csv, motility, mdf, picture, provenance);
     }
 
     /**
@@ -66,6 +68,7 @@ public record ResultFiles(Path xml, Path csv, Path mdf, Path picture, Path prove
         try {
             TrackMateXml.write(xml, result.tracked());
             TrackCsv.write(csv, result.tracked());
+            MotilityCsv.write(motility, result.tracked());
             Mdf.write(mdf, result.tracked());
             TrackPicture.of(film, result.tracked()).write(picture);
             origin.write(provenance);
@@ -78,9 +81,7 @@ public record ResultFiles(Path xml, Path csv, Path mdf, Path picture, Path prove
     }
 
     private void checkReplaceable() {
-        List<Path> present = Stream.of(xml, csv, mdf, picture, provenance)
-                .filter(Files::exists)
-                .toList();
+        List<Path> present = all().stream().filter(Files::exists).toList();
         if (!present.isEmpty() && !writtenByARun()) {
             throw new DetectorException(
                     "%s is there already and is no result of MEMTrack: choose another folder, so that it"

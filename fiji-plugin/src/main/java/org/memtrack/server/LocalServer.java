@@ -183,8 +183,9 @@ final class LocalServer {
         String words = !lines.isEmpty()
                 ? last(lines)
                 : output.lines().isEmpty() ? "it said nothing" : "it said \"" + last(output.lines()) + "\"";
+        String clause = words.replaceAll("[.\\s]+$", "");
         String ended = process.isAlive() ? "did not start within %d s".formatted(START_LIMIT.toSeconds()) : "ended";
-        return "the server of %s %s: %s".formatted(interpreter.describe(), ended, words);
+        return "the server of %s %s: %s".formatted(interpreter.describe(), ended, clause);
     }
 
     private static String last(List<String> lines) {

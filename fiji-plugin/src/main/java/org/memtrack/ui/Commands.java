@@ -22,16 +22,25 @@ final class Commands {
             stopMacro();
         } catch (DetectorException e) {
             LOG.log(System.Logger.Level.DEBUG, "MEMTrack failed", e);
-            if (GraphicsEnvironment.isHeadless()) {
-                IJ.log("MEMTrack: " + e.getMessage());
-            } else {
-                IJ.error("MEMTrack", e.getMessage());
-            }
+            tell(e.getMessage());
+            stopMacro();
+        } catch (RuntimeException e) {
+            // ImageJ would show the stack trace and go on with the macro.
+            LOG.log(System.Logger.Level.ERROR, "MEMTrack failed unexpectedly", e);
+            tell("MEMTrack failed unexpectedly (%s): please report this, with the error in the console.".formatted(e));
             stopMacro();
         } finally {
             if (!GraphicsEnvironment.isHeadless()) {
                 IJ.showProgress(1);
             }
+        }
+    }
+
+    private static void tell(String sentence) {
+        if (GraphicsEnvironment.isHeadless()) {
+            IJ.log("MEMTrack: " + sentence);
+        } else {
+            IJ.error("MEMTrack", sentence);
         }
     }
 
