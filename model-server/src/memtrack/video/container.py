@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Films in AVI and other video files."""
+
+from __future__ import annotations
+
+import contextlib
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+
+from memtrack.errors import FilmError
+from memtrack.film import Calibration
+from memtrack.spool import FilmGeometry, SpooledFilm
+from memtrack.video.source import Frame, Source, grey, notes_on
+
+
+@contextlib.contextmanager
+def open_container(path: Path) -> Iterator[Source]:
+    """The film in a video file, decoded once from front to back into a spool: seeking in such files misses frames.
+
+    Raises:
+        FilmError: it cannot be decoded.
+    """
+    with contextlib.closing(_Decoder(path)) as decoder:
+        first = next(decoder, None)
+        if first is None:
+            raise FilmError(f"{path.name} cannot be decoded as video; save the film as TIFF")
+        height, width = first.shape
+        geometry = FilmGeometry(width, height, 1, first.dtype)
+        with SpooledFilm(geometry, decoder.calibration, Path(tempfile.gettempdir())) as film:
+            film.append(first.tobytes())
+            for frame in decoder:
+                if frame.shape != first.shape:
+                    raise FilmError(f"frame {film.frame_count} of {path.name} has another size than frame 0")
+                film.append(frame.tobytes())
+                film.geometry = replace(film.geometry, frame_count=film.frame_count + 1)
+            yield Source(film.frame_count, height, width, film.frame, decoder.calibration, decoder.notes)
+
+
+class _Decoder:
+    """Frames of a video file, one after the other."""
+
+    def __init__(self, path: Path) -> None:
+        self._capture = cv2.VideoCapture(str(path))
+        rate = self._capture.get(cv2.CAP_PROP_FPS)
+        self.calibration = Calibration(None, 1 / rate if rate > 0 else None)
+        self.notes: tuple[str, ...] = ()
+
+    def __iter__(self) -> _Decoder:
+        return self
+
+    def __next__(self) -> Frame:
+        decoded, image = self._capture.read()
+        if not decoded:
+            raise StopIteration
+        image = image[..., ::-1] if image.ndim == 3 else image
+        self.notes = self.notes or notes_on(image)
+        return grey(image)
+
+    def close(self) -> None:
+        self._capture.release()

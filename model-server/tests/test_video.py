@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+import tifffile
+
+from memtrack.errors import FilmError
+from memtrack.film import Calibration
+from memtrack.video import OpenedFilm, open_film
+from memtrack.video.folder import natural
+from memtrack.video.source import COLOUR_NOTE, INTEGER_NOTE, grey
+
+FILM = np.random.default_rng(0).integers(0, 250, (12, 9, 14)).astype(np.uint8)
+HARD_NAME = "Film [1] für 细菌 ü"
+
+
+def frames(film: OpenedFilm) -> np.ndarray:
+    read = np.stack([film.frame(i) for i in range(film.frame_count)])
+    assert read.shape == (film.frame_count, film.height, film.width)
+    return read
+
+
+def check(path: Path, expected: np.ndarray, notes: tuple[str, ...] = ()) -> Calibration:
+    """Reads the film at `path`; its frames must be `expected`, in value and type."""
+    with open_film(path) as film:
+        read = frames(film)
+        np.testing.assert_array_equal(read, expected)
+        assert read.dtype == expected.dtype
+        assert film.notes == notes
+        # Any order, more than once.
+        np.testing.assert_array_equal(film.frame(film.frame_count - 1), expected[-1])
+        np.testing.assert_array_equal(film.frame(0), expected[0])
+        return film.calibration
+
+
+@pytest.mark.parametrize("dtype", ["uint8", "uint16", "float32"])
+@pytest.mark.parametrize("compression", [None, "zlib"])
+@pytest.mark.parametrize("byteorder", ["<", ">"])
+def test_multi_page_tiff(tmp_path: Path, dtype: str, compression: str | None, byteorder: Any) -> None:
+    path = tmp_path / f"{HARD_NAME}.tif"
+    film = FILM.astype(dtype)
+    tifffile.imwrite(path, film, compression=compression, byteorder=byteorder, photometric="minisblack")
+    assert check(path, film) == Calibration()
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("um", 1), ("micron", 1), ("\\u00B5m", 1), ("nm", 1e-3), ("mm", 1e3)])
+def test_imagej_tiff_tells_pixel_size_and_frame_interval(tmp_path: Path, unit: str, factor: float) -> None:
+    path = tmp_path / "film.tif"
+    tags = {"axes": "TYX", "unit": unit, "finterval": 0.5}
+    tifffile.imwrite(path, FILM, imagej=True, metadata=tags, resolution=(4.0, 4.0))
+    calibration = check(path, FILM)
+    assert calibration.pixel_size_um == pytest.approx(0.25 * factor)
+    assert calibration.frame_interval_seconds == 0.5
+
+
+def test_imagej_tiff_in_pixels_tells_no_size(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": "pixel", "fps": 25.0})
+    assert check(path, FILM) == Calibration(None, 1 / 25)
+
+
+def test_imagej_tiff_beyond_4_gb_has_one_page_and_all_frames(tmp_path: Path) -> None:
+    """ImageJ writes one image file directory and the frames one after the other; here without the 4 GB."""
+    path = tmp_path / "film.tif"
+    description = f"ImageJ=1.54p\nimages={len(FILM)}\nframes={len(FILM)}\nhyperstack=true\n"
+    tifffile.imwrite(path, FILM[0], description=description, metadata=None, byteorder=">")
+    with tifffile.TiffFile(path) as file:
+        start = file.pages.first.dataoffsets[0]
+    content = path.read_bytes()
+    assert start + FILM[0].size == len(content), "the frames must follow the first one"
+    path.write_bytes(content + FILM[1:].tobytes())
+    check(path, FILM)
+
+
+def test_ome_tiff_tells_pixel_size_and_time(tmp_path: Path) -> None:
+    path = tmp_path / "film.ome.tif"
+    size = {"PhysicalSizeX": 247.5, "PhysicalSizeXUnit": "nm", "TimeIncrement": 20.0, "TimeIncrementUnit": "ms"}
+    tifffile.imwrite(path, FILM, ome=True, metadata={"axes": "TYX", **size})
+    calibration = check(path, FILM)
+    assert calibration.pixel_size_um == pytest.approx(0.2475)
+    assert calibration.frame_interval_seconds == pytest.approx(0.02)
+
+
+def test_a_given_calibration_goes_before_the_files(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(
+        path, FILM, imagej=True, metadata={"axes": "TYX", "unit": "um", "finterval": 0.5}, resolution=(4, 4)
+    )
+    with open_film(path, Calibration(pixel_size_um=0.1)) as film:
+        assert film.calibration == Calibration(0.1, 0.5)
+
+
+def test_slices_are_taken_as_time_with_a_note(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "ZYX"})
+    check(path, FILM, ("The 12 slices of film.tif are taken as time points.",))
+
+
+@pytest.mark.parametrize(
+    ("axes", "found"), [("TZYX", "3 time points, 4 slices"), ("TCYX", "3 time points, 4 channels")]
+)
+def test_more_than_time_is_refused_with_what_was_found(tmp_path: Path, axes: str, found: str) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM.reshape(3, 4, 9, 14), imagej=True, metadata={"axes": axes})
+    with pytest.raises(FilmError, match=f"film.tif has {found}, but a film is one plane a time point"), open_film(path):
+        pass
+
+
+def test_one_image_is_a_film_of_one_frame(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM[0])
+    check(path, FILM[:1])
+
+
+def test_colour_is_turned_grey_with_a_note(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    colour = np.stack([FILM, FILM // 2, FILM // 3], axis=-1)
+    tifffile.imwrite(path, colour, photometric="rgb")
+    expected = (colour @ np.array([0.299, 0.587, 0.114])).astype(np.uint8)
+    check(path, expected, (COLOUR_NOTE,))
+    tifffile.imwrite(path, np.stack([FILM] * 3, axis=-1), photometric="rgb")
+    check(path, FILM)
+
+
+def test_other_integers_become_float_with_a_note(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    film = FILM.astype(np.int32) - 100
+    tifffile.imwrite(path, film, photometric="minisblack")
+    check(path, film.astype(np.float32), (INTEGER_NOTE,))
+
+
+@pytest.mark.parametrize("depth", ["uint8", "uint16"])
+def test_a_folder_of_png_in_natural_order(tmp_path: Path, depth: str) -> None:
+    folder = tmp_path / HARD_NAME
+    folder.mkdir()
+    film = FILM.astype(depth) * (257 if depth == "uint16" else 1)
+    for i, frame in enumerate(film.astype(depth)):
+        (folder / f"bild {i}.png").write_bytes(cv2.imencode(".png", frame)[1].tobytes())
+    (folder / "notes.txt").write_text("not a frame", encoding="utf-8")
+    (folder / "._bild 0.png").write_bytes(b"left by macOS")
+    check(folder, film.astype(depth))
+
+
+def test_names_with_numbers_sort_by_their_value() -> None:
+    names = ["f10.png", "F2.png", "f1.png", "t2f1.png", "t10f1.png", "10.png", "9.png"]
+    ordered = ["9.png", "10.png", "f1.png", "F2.png", "f10.png", "t2f1.png", "t10f1.png"]
+    assert sorted(names, key=natural) == ordered
+
+
+def test_a_folder_of_single_tiffs(tmp_path: Path) -> None:
+    for i, frame in enumerate(FILM):
+        tifffile.imwrite(tmp_path / f"frame_{i:03}.tif", frame)
+    check(tmp_path, FILM)
+
+
+def test_an_avi_is_read_without_loss_or_shift(tmp_path: Path) -> None:
+    path = tmp_path / f"{HARD_NAME}.avi"
+    film = np.repeat(np.repeat(FILM, 4, axis=1), 4, axis=2)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"FFV1"), 25.0, film.shape[:0:-1], isColor=False)
+    assert writer.isOpened()
+    for frame in film:
+        writer.write(frame)
+    writer.release()
+    assert check(path, film).frame_interval_seconds == pytest.approx(1 / 25)
+
+
+def _text(path: Path) -> Path:
+    path.write_text("not a film", encoding="utf-8")
+    return path
+
+
+def test_what_is_no_film_gets_one_sentence(tmp_path: Path) -> None:
+    def refusal(path: Path) -> str:
+        with pytest.raises(FilmError) as refused, open_film(path) as film:
+            frames(film)
+        return str(refused.value)
+
+    assert "there is no film" in refusal(tmp_path / "missing.tif")
+    assert "film.czi is no film this program reads" in refusal(_text(tmp_path / "film.czi"))
+    assert "film.tif cannot be read as TIFF" in refusal(_text(tmp_path / "film.tif"))
+    assert "film.avi cannot be decoded as video" in refusal(_text(tmp_path / "film.avi"))
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert "has no images" in refusal(empty)
+    (empty / "1.png").write_bytes(b"")
+    assert "1.png cannot be decoded as an image" in refusal(empty)
+    (empty / "2.tif").write_bytes(b"")
+    assert r"has images of several kinds (.png, .tif)" in refusal(empty)
+
+
+def test_frames_of_different_sizes_are_refused(tmp_path: Path) -> None:
+    for i, size in enumerate((5, 6)):
+        (tmp_path / f"{i}.png").write_bytes(cv2.imencode(".png", np.zeros((4, size), np.uint8))[1].tobytes())
+    with open_film(tmp_path) as film, pytest.raises(FilmError, match="frame 1 has 6 x 4 pixels, frame 0 5 x 4"):
+        film.frame(1)
+
+
+def test_a_black_and_white_image_is_grey() -> None:
+    np.testing.assert_array_equal(grey(np.array([[True, False]])), np.array([[255, 0]], np.uint8))
+    with pytest.raises(FilmError, match="are not grey levels"):
+        grey(np.zeros((2, 2), np.complex64))
