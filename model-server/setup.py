@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import generate
 
 
-class BuildWithContract(build_py):
+class BuildWithContract(build_py):  # type: ignore[misc]
     """Generates memtrack.v1 before the package is collected; also in an editable install."""
 
     def run(self) -> None:
@@ -21,7 +21,7 @@ class BuildWithContract(build_py):
         super().run()
 
 
-class ArchiveWithContract(sdist):
+class ArchiveWithContract(sdist):  # type: ignore[misc]
     """Puts the contract and the generator beside the sources."""
 
     def make_release_tree(self, base_dir: str, files: list[str]) -> None:

@@ -70,7 +70,7 @@ class ProgressClock:
         self._costs = costs
         self._clock = clock
         self._last = clock()
-        self._fraction = 0.0
+        self.standing = Standing(Stage.RECEIVING, 0, frame_count, 0.0, None)
         self.seconds: dict[Stage, float] = {}
 
     def restart(self) -> None:
@@ -85,10 +85,14 @@ class ProgressClock:
         share = min(1.0, done / total)
         before = sum(cost for other, cost in self._costs.items() if other < stage)
         fraction = (before + share * self._costs[stage]) / sum(self._costs.values())
-        self._fraction = max(self._fraction, fraction)
-        return Standing(
-            stage, int(share * self._frame_count), self._frame_count, self._fraction, self._seconds_left(stage, share)
+        self.standing = Standing(
+            stage,
+            int(share * self._frame_count),
+            self._frame_count,
+            max(self.standing.fraction, fraction),
+            self._seconds_left(stage, share),
         )
+        return self.standing
 
     def _seconds_left(self, stage: Stage, share: float) -> float | None:
         """What is left of this stage at its own pace, and of later ones at the pace this one has against its cost."""

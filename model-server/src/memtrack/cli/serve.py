@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`memtrack serve`: options of the model server."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from pathlib import Path
+
+from memtrack.config import Limits, ServerConfig
+from memtrack.errors import SettingsError
+from memtrack.server import serve
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of the subcommand; each default is the one of ServerConfig or Limits."""
+    config, limits = ServerConfig(), Limits()
+    add = parser.add_argument
+    add("--host", default=config.host, help="address to listen on (default: %(default)s, this machine only)")
+    add("--port", type=int, default=config.port, help="port to listen on; 0, the default, takes any free one")
+    add("--token-from-stdin", action="store_true", help="read the token callers must send from the first line of "
+        "standard input, and end when standard input is closed")  # fmt: skip
+    add("--parent-pid", type=int, help="end when this process does")
+    add("--tls-cert", type=Path, help="certificate chain in PEM; needed on an address other machines can reach")
+    add("--tls-key", type=Path, help="private key in PEM")
+    add("--spool-folder", type=Path, default=config.spool_folder, help="where films lie while they are worked on "
+        "(default: %(default)s)")  # fmt: skip
+    add("--max-film-bytes", type=int, default=limits.max_film_bytes, help="largest film taken (default: %(default)s)")
+    add("--max-films", type=int, default=limits.max_films, help="films taken at the same time (default: %(default)s)")
+    add("--idle-seconds", type=float, default=limits.idle_seconds, help="a film is given up when no frame comes for "
+        "this long (default: %(default)s)")  # fmt: skip
+    add("--grace-seconds", type=float, default=config.grace_seconds, help="what films get to finish after SIGTERM or "
+        "Ctrl-C (default: %(default)s)")  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serves until the process is told to end."""
+    logging.basicConfig(level=logging.INFO, stream=sys.stderr, format="%(asctime)s %(levelname)s %(message)s")
+    if not options.spool_folder.is_dir():
+        raise SettingsError(f"the spool folder {options.spool_folder} does not exist; make it or give another one")
+    config = ServerConfig(
+        host=options.host,
+        port=options.port,
+        token=_token() if options.token_from_stdin else None,
+        tls_certificate=options.tls_cert,
+        tls_key=options.tls_key,
+        spool_folder=options.spool_folder,
+        parent_pid=options.parent_pid,
+        grace_seconds=options.grace_seconds,
+        limits=Limits(
+            max_film_bytes=options.max_film_bytes, max_films=options.max_films, idle_seconds=options.idle_seconds
+        ),
+    )
+    return serve(config, watch_input=options.token_from_stdin)
+
+
+def _token() -> str:
+    token = sys.stdin.readline().strip()
+    if not token:
+        raise SettingsError("no token came on standard input; write it there as the first line")
+    return token

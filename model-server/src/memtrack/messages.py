@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Our values as messages of the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from memtrack.detections import FilterCounts, FrameDetections, Level
+from memtrack.headers import FilmRequest
+from memtrack.libraries import library_versions
+from memtrack.models import OPENVINO, Model, ModelCard
+from memtrack.pipeline import DetectionSettings, model_scale
+from memtrack.progress import Stage, Standing
+from memtrack.spool import SpooledFilm
+from memtrack.v1 import detection_pb2 as pb
+from memtrack.v1 import server_pb2
+
+LEVELS = {Level.LOW: pb.LEVEL_LOW, Level.MEDIUM: pb.LEVEL_MEDIUM, Level.HIGH: pb.LEVEL_HIGH}
+
+
+def accepted(request: FilmRequest, model: Model, film: SpooledFilm) -> pb.DetectFilmResponse:
+    """What will be done with the film."""
+    settings, card = request.settings, model.card
+    scale = model_scale(film, model, settings)
+    return pb.DetectFilmResponse(
+        accepted=pb.Accepted(
+            model_name=card.name,
+            model_version=card.version,
+            model_sha256=model.digest,
+            thresholds=thresholds(settings.thresholds or card.thresholds[settings.criterion]),
+            scale=scale,
+            engine=engine_name(model, settings),
+            warnings=warnings(request, scale),
+        )
+    )
+
+
+def engine_name(model: Model, settings: DetectionSettings) -> str:
+    """The engine the settings come to, with its version."""
+    kind = settings.engine
+    if kind == "auto":
+        kind = "openvino" if OPENVINO in model.card.files else "torch"
+    return f"{kind} {library_versions().get(kind, '(not installed)')} CPU"
+
+
+def warnings(request: FilmRequest, scale: float) -> list[str]:
+    """What the user should know about the film and the settings, one sentence each."""
+    said = []
+    if request.calibration.pixel_size_um is None and request.settings.cell_length_px is None:
+        said.append(
+            "The film has no pixel size and no cell length was given, so it is used at its own scale; give one of them "
+            "if its cells are much longer or shorter than those the model knows."
+        )
+    if request.geometry.frame_count < 10:
+        said.append(
+            f"The film has {request.geometry.frame_count} frame(s); with fewer than 10 the still background cannot be "
+            "told from slow bacteria."
+        )
+    if not 0.25 <= scale <= 4:
+        said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
+    return said
+
+
+def progress(standing: Standing, films_ahead: int = 0) -> pb.DetectFilmResponse:
+    """Where the work stands."""
+    return pb.DetectFilmResponse(
+        progress=pb.Progress(
+            stage=f"STAGE_{standing.stage.name}",
+            frames_done=standing.frames_done,
+            frames_total=standing.frames_total,
+            fraction=standing.fraction,
+            seconds_left=standing.seconds_left,
+            films_ahead=films_ahead,
+        )
+    )
+
+
+def frame(found: FrameDetections) -> pb.DetectFilmResponse:
+    """What was found in one frame."""
+    rows = zip(
+        found.detections.boxes.tolist(),
+        found.detections.scores.tolist(),
+        found.detections.levels.tolist(),
+        strict=True,
+    )
+    detections = [
+        pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=LEVELS[Level(level)])
+        for (x0, y0, x1, y1), score, level in rows
+    ]
+    return pb.DetectFilmResponse(
+        frame=pb.FrameDetections(frame=found.frame, detections=detections, drift_x=found.drift_x, drift_y=found.drift_y)
+    )
+
+
+def summary(
+    request: FilmRequest, model: Model, counts: FilterCounts, film_sha256: str, seconds: Mapping[Stage, float]
+) -> pb.DetectFilmResponse:
+    """What was kept and dropped over the whole film."""
+    return pb.DetectFilmResponse(
+        summary=pb.Summary(
+            frame_count=request.geometry.frame_count,
+            candidates=counts.candidates,
+            too_large=counts.too_large,
+            near_misses=counts.near_misses,
+            overlapping=counts.overlapping,
+            outside_region=counts.outside_region,
+            kept=counts.kept,
+            candidate_floor=model.card.decoder.floor,
+            film_sha256=film_sha256,
+            stage_times=[
+                pb.StageTime(stage=f"STAGE_{stage.name}", seconds=spent) for stage, spent in sorted(seconds.items())
+            ],
+        )
+    )
+
+
+def card(model: ModelCard, digest: str) -> server_pb2.ModelCard:
+    """A model of the registry."""
+    shortest, longest = model.cell_length_px
+    return server_pb2.ModelCard(
+        name=model.name,
+        version=model.version,
+        description=model.description,
+        feature_spec=f"{model.features.name} {model.features.version}",
+        architecture=str(model.architecture.get("name", "")),
+        box_size_px=model.decoder.box_size_px,
+        min_cell_length_px=shortest,
+        max_cell_length_px=longest,
+        max_precision=thresholds(model.thresholds["max_precision"]),
+        max_f1=thresholds(model.thresholds["max_f1"]),
+        sha256=digest,
+        licence=model.licence,
+        json=model.to_json(),
+    )
+
+
+def thresholds(values: Sequence[float]) -> pb.LevelThresholds:
+    """Lowest scores of the low, medium and high level."""
+    low, medium, high = values
+    return pb.LevelThresholds(low=low, medium=medium, high=high)

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""DetectFilm as a client sees it, with the shipped model."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from typing import Any
+
+import grpc
+import numpy as np
+import pytest
+
+from memtrack.detections import FilterCounts
+from memtrack.film import ArrayFilm, Calibration
+from memtrack.models import load_model
+from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.v1 import detection_pb2 as pb
+from server.running import Answer, RunningServer, answer, chunks, eventually, header, noise, requests
+
+LOW = pb.LevelThresholds(low=0.1, medium=0.1, high=0.1)
+
+
+def rows(found: pb.FrameDetections) -> np.ndarray:
+    """Boxes, scores and levels (from 0) of one frame."""
+    return np.array([[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1] for d in found.detections]).reshape(
+        -1, 6
+    )
+
+
+def check_order(found: Answer, frames: int) -> None:
+    assert found.order[0] == "accepted"
+    assert found.order[-1] == "summary"
+    assert (len(found.accepted), len(found.summary)) == (1, 1)
+    assert [f.frame for f in found.frame] == list(range(frames))
+
+
+@pytest.mark.parametrize("dtype", ["uint8", "uint16", "float32"])
+def test_a_film_gets_the_detections_of_the_method_itself(server: RunningServer, dtype: str) -> None:
+    film = noise(12, 70, 110, dtype)
+    found = server.detect(film, thresholds=LOW, pixel_size_um=0.25, frame_interval_seconds=1 / 60)
+
+    model = load_model()
+    settings = DetectionSettings(thresholds=(0.1, 0.1, 0.1))
+    expected = list(detect_film(ArrayFilm(film, Calibration(0.25, 1 / 60)), model, settings, lambda *_: None))
+
+    check_order(found, 12)
+    for ours, theirs in zip(found.frame, expected, strict=True):
+        d = theirs.detections
+        np.testing.assert_array_equal(rows(ours), np.c_[d.boxes, d.scores, d.levels])
+        assert (ours.drift_x, ours.drift_y) == (theirs.drift_x, theirs.drift_y)
+    counts = sum((frame.counts for frame in expected), FilterCounts())
+    summary = found.summary[0]
+    for name in counts.__slots__:
+        assert getattr(summary, name) == getattr(counts, name), name
+    assert counts.kept == sum(len(f.detections) for f in found.frame)
+    assert summary.frame_count == 12
+    assert summary.film_sha256 == hashlib.sha256(film.tobytes()).hexdigest()
+    assert summary.candidate_floor == model.card.decoder.floor
+    assert (found.accepted[0].model_name, found.accepted[0].model_sha256) == ("default", model.digest)
+    assert found.accepted[0].thresholds.low == 0.1
+    assert found.accepted[0].engine.startswith("openvino 20")
+
+
+def test_progress_rises_through_the_stages_to_one(server: RunningServer) -> None:
+    found = server.detect(noise(30, 60, 60))
+    fractions = [p.fraction for p in found.progress]
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1
+    stages = [p.stage for p in found.progress]
+    assert stages == sorted(stages)
+    assert set(stages) == {pb.STAGE_RECEIVING, pb.STAGE_STABILISING, pb.STAGE_BACKGROUND, pb.STAGE_DETECTING}
+    assert all(0 <= p.frames_done <= p.frames_total == 30 for p in found.progress)
+    times = {t.stage: t.seconds for t in found.summary[0].stage_times}
+    assert set(times) == set(stages)
+    assert all(seconds >= 0 for seconds in times.values())
+
+
+@pytest.mark.parametrize("size", [1, 7, 64, 40 * 30 * 2 - 1])
+def test_chunks_of_any_size_give_the_same(server: RunningServer, size: int) -> None:
+    film = noise(3, 30, 40, "uint16")
+    whole = server.detect(film, thresholds=LOW)
+    split = answer(server.call(requests(film, size, thresholds=LOW)))
+    assert split.frame == whole.frame
+    assert split.summary[0].film_sha256 == whole.summary[0].film_sha256
+
+
+@pytest.mark.parametrize(
+    "film",
+    [
+        noise(1, 1, 1),
+        noise(5, 1, 1),
+        noise(1, 40, 90),
+        noise(2, 3, 200),
+        noise(20, 200, 3),
+        np.zeros((8, 33, 47), "u1"),
+    ],
+    ids=["1x1, one frame", "1x1", "one frame", "flat", "tall", "all zero"],
+)
+def test_extreme_films_go_through(server: RunningServer, film: np.ndarray) -> None:
+    found = server.detect(film)
+    check_order(found, len(film))
+    for frame in found.frame:
+        assert np.isfinite(rows(frame)).all()
+
+
+def test_an_all_zero_film_has_no_detections(server: RunningServer) -> None:
+    assert server.detect(np.zeros((12, 64, 64), np.uint16)).summary[0].kept == 0
+
+
+def test_region_and_filters_are_obeyed_and_counted(server: RunningServer) -> None:
+    film = noise(12, 70, 111)
+    anything = {"thresholds": pb.LevelThresholds(), "nms_iou": 1.0, "max_size_px": 1e6}
+    everywhere = server.detect(film, **anything)
+    assert everywhere.summary[0].kept == everywhere.summary[0].candidates > 0
+    mask = np.zeros((70, 111), bool)
+    mask[:, :50] = True
+    region = pb.RegionOfInterest(mask=np.packbits(mask).tobytes())
+    left = server.detect(film, region=region, **anything)
+    assert 0 < left.summary[0].kept < everywhere.summary[0].kept
+    assert left.summary[0].outside_region == everywhere.summary[0].kept - left.summary[0].kept
+    for frame in left.frame:
+        assert (rows(frame)[:, [0, 2]].mean(axis=1) <= 50).all()
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_values_that_are_not_finite_are_refused(server: RunningServer, bad: float) -> None:
+    film = noise(4, 20, 20, "float32")
+    film[2, 3, 4] = bad
+    status, sentence = refusal(server, requests(film))
+    assert status is grpc.StatusCode.INVALID_ARGUMENT
+    assert "frame 2" in sentence
+
+
+def refusal(server: RunningServer, sent: Any) -> tuple[grpc.StatusCode, str]:
+    """Status and sentence a call ends with."""
+    with pytest.raises(grpc.RpcError) as refused:
+        answer(server.call(sent))
+    return refused.value.code(), refused.value.details() or ""
+
+
+def test_a_stream_that_does_not_add_up_is_refused(server: RunningServer) -> None:
+    film = noise(3, 20, 30)
+    head = pb.DetectFilmRequest(header=header(film))
+    invalid = grpc.StatusCode.INVALID_ARGUMENT
+    first_wrong = (invalid, "the first message of a film must be its header")
+    assert refusal(server, []) == first_wrong
+    assert refusal(server, chunks(film)) == first_wrong
+    assert refusal(server, [pb.DetectFilmRequest()]) == first_wrong
+    assert refusal(server, [head]) == (invalid, "the film ended after 0 of 3 frames")
+    assert refusal(server, [head, *chunks(film[:2])]) == (invalid, "the film ended after 2 of 3 frames")
+    assert refusal(server, [head, *chunks(film), *chunks(film[:1], first=3)]) == (
+        invalid,
+        "more samples came after the last of 3 frames (frame 3, 600 bytes)",
+    )
+    assert refusal(server, [head, head]) == (invalid, "only chunks of frames may follow the header")
+    assert refusal(server, [head, pb.DetectFilmRequest()]) == (invalid, "only chunks of frames may follow the header")
+    eventually(lambda: server.spools() == 0, "the spools are gone")
+
+
+def test_a_chunk_of_one_mebibyte_is_taken_and_one_byte_more_is_not(server: RunningServer) -> None:
+    limit = 1 << 20
+    row = np.zeros((1, 1, limit + 1), np.uint8)
+    found = answer(server.call(requests(row[:, :, :limit])))
+    assert found.summary[0].frame_count == 1
+    assert refusal(server, requests(row, limit + 1)) == (
+        grpc.StatusCode.INVALID_ARGUMENT,
+        f"a chunk of frame 0 has {limit + 1} bytes, at most {limit} are allowed",
+    )
+    status, _ = refusal(server, requests(np.zeros((1, 1, 17 * limit), np.uint8), 17 * limit))
+    assert status is grpc.StatusCode.RESOURCE_EXHAUSTED
+
+
+def test_another_protocol_an_unknown_model_and_a_film_too_large_are_refused_on_the_header(
+    server: RunningServer,
+) -> None:
+    film = noise(2, 10, 10)
+    assert refusal(server, requests(film, protocol=2)) == (
+        grpc.StatusCode.INVALID_ARGUMENT,
+        "the plug-in speaks protocol 2 and the model server 1; install the same version of both",
+    )
+    status, sentence = refusal(server, requests(film, model_name="no-such-model"))
+    assert status is grpc.StatusCode.NOT_FOUND
+    assert "no-such-model" in sentence
+    assert "default" in sentence
+    status, sentence = refusal(server, requests(film, model_name="../../etc"))
+    assert status is grpc.StatusCode.INVALID_ARGUMENT
+    status, sentence = refusal(server, requests(film, width=8000, height=8000, frame_count=2000))
+    assert status is grpc.StatusCode.RESOURCE_EXHAUSTED
+    assert sentence.startswith("the film has 128.0 GB, the server takes 68.7 GB; ")
+
+
+def test_two_films_at_once_both_come_right_and_the_later_one_hears_that_it_waits(server: RunningServer) -> None:
+    films = [noise(60, 240, 320, seed=1), noise(20, 50, 60, seed=2)]
+    alone = [server.detect(film, thresholds=LOW) for film in films]
+    together: list[Answer | None] = [None, None]
+    first = server.call(requests(films[0], thresholds=LOW))
+    seen = []
+    for response in first:
+        seen.append(response)
+        if response.progress.stage >= pb.STAGE_STABILISING:
+            break
+
+    def second() -> None:
+        together[1] = server.detect(films[1], thresholds=LOW)
+
+    thread = threading.Thread(target=second)
+    thread.start()
+    together[0] = answer([*seen, *first])
+    thread.join()
+    for lonely, both in zip(alone, together, strict=True):
+        assert both is not None
+        assert both.frame == lonely.frame
+    assert together[1] is not None
+    assert max(p.films_ahead for p in together[1].progress) == 1
+    assert max(p.films_ahead for p in alone[1].progress) == 0
+
+
+def test_garbage_on_the_wire_is_refused_and_the_server_goes_on(server: RunningServer) -> None:
+    world = np.random.default_rng(7)
+    raw: Any = server.channel.stream_stream("/memtrack.v1.DetectionService/DetectFilm")
+    good = next(requests(noise(2, 10, 10))).SerializeToString()
+    for i in range(200):
+        if i % 2:
+            message = world.bytes(int(world.integers(0, 64)))
+        else:
+            damaged = bytearray(good)
+            damaged[int(world.integers(len(damaged)))] = int(world.integers(256))
+            message = bytes(damaged)
+        with pytest.raises(grpc.RpcError) as refused:
+            list(raw(iter([message]), metadata=server.metadata, timeout=20))
+        # Bytes gRPC cannot parse are refused by gRPC itself, as INTERNAL or UNKNOWN.
+        assert refused.value.code() in {
+            grpc.StatusCode.INVALID_ARGUMENT,
+            grpc.StatusCode.NOT_FOUND,
+            grpc.StatusCode.RESOURCE_EXHAUSTED,
+            grpc.StatusCode.INTERNAL,
+            grpc.StatusCode.UNKNOWN,
+        }
+        assert "failed unexpectedly" not in str(refused.value.details())
+    check_order(server.detect(noise(2, 10, 10)), 2)
+    eventually(lambda: server.spools() == 0, "the spools are gone")

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command `memtrack` as a user calls it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tifffile
+
+from memtrack import __version__
+from memtrack.__main__ import SUBCOMMANDS
+from memtrack.detections_io import read_detections
+
+
+def memtrack(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "memtrack", *map(str, words)],
+        capture_output=True,
+        encoding="utf-8",
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("ordner mit ümlaut 细") / "film [1].tif"
+    frames = np.random.default_rng(0).normal(120, 5, (12, 60, 90)).astype(np.uint8)
+    tifffile.imwrite(
+        path, frames, imagej=True, metadata={"axes": "TYX", "unit": "um", "finterval": 0.1}, resolution=(4, 4)
+    )
+    return path
+
+
+def test_the_version_and_the_subcommands_are_told() -> None:
+    assert memtrack("--version").stdout == f"memtrack {__version__}\n"
+    shown = memtrack("--help").stdout
+    assert set(SUBCOMMANDS) == {"serve", "detect", "simulate", "train", "evaluate", "models"}
+    assert all(name in shown for name in SUBCOMMANDS)
+    assert memtrack().returncode == 2
+
+
+def test_neither_help_nor_the_servers_start_imports_a_computing_library() -> None:
+    code = (
+        "import sys, memtrack.server, memtrack.cli.serve; print([m for m in ('torch', 'openvino') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout == "[]\n"
+
+
+def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -> None:
+    out = tmp_path / "détections.csv"
+    done = memtrack("detect", film, "--out", out, "--thresholds", "0,0,0", "--nms-iou", "1", "--max-size-px", "1000")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines() == [str(out), str(tmp_path / "détections.provenance.json")]
+    told = json.loads((tmp_path / "détections.provenance.json").read_text(encoding="utf-8"))
+    assert told["memtrack"] == __version__
+    assert told["film"]["name"] == "film [1].tif"
+    assert told["film"]["sha256"] == hashlib.sha256(tifffile.imread(film).tobytes()).hexdigest()
+    assert (told["film"]["pixel_size_um"], told["film"]["frame_interval_seconds"]) == (0.25, 0.1)
+    assert told["model"]["name"] == "default"
+    assert told["thresholds"] == {"low": 0, "medium": 0, "high": 0}
+    kept = sum(len(frame.detections) for frame in read_detections(out))
+    assert kept == told["counts"]["kept"] == told["counts"]["candidates"]
+    assert f"{kept} detections kept" in done.stderr
+
+
+def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_path: Path) -> None:
+    out = tmp_path / "d.csv"
+    for words, sentence in [
+        (("detect", tmp_path / "missing.tif", "--out", out), "there is no film"),
+        (("detect", film, "--out", tmp_path / "d.xls"), "d.xls must end in .csv or .json"),
+        (("detect", film, "--out", tmp_path / "missing" / "d.csv"), "does not exist; make it"),
+        (("detect", film, "--out", out, "--model", "nobody"), "nobody"),
+        (("detect", film, "--out", out, "--nms-iou", "7"), "nms_iou is 7.0"),
+        (("detect", film, "--out", out, "--region", tmp_path / "missing.png"), "cannot read the region"),
+    ]:
+        done = memtrack(*words)
+        assert done.returncode == 2
+        assert done.stderr.startswith("memtrack: ")
+        assert done.stderr.count("\n") == 1
+        assert sentence in done.stderr
+        assert not out.exists()
+
+
+def test_a_mistyped_value_is_refused_by_the_parser(film: Path, tmp_path: Path) -> None:
+    for option, value in [("--thresholds", "0.5"), ("--pixel-size-um", "-1"), ("--criterion", "best")]:
+        done = memtrack("detect", film, "--out", tmp_path / "d.csv", option, value)
+        assert done.returncode == 2
+        assert option in done.stderr
