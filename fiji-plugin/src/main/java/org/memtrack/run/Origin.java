@@ -7,6 +7,7 @@ import java.time.temporal.ChronoUnit;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.TreeMap;
 import org.memtrack.client.DetectionSummary;
 import org.memtrack.client.ModelInUse;
 import org.memtrack.formats.Provenance;
@@ -42,7 +43,7 @@ public final class Origin {
         software.put("memtrack server", result.server().version());
         software.put("protocol", Integer.toString(result.server().protocol()));
         software.put("Python", result.server().pythonVersion());
-        result.server().libraries().forEach(software::put);
+        new TreeMap<>(result.server().libraries()).forEach(software::put);
         software.put("ImageJ", ImageJ.VERSION + ImageJ.BUILD);
         software.put("Java", System.getProperty("java.version", ""));
         software.put("system", System.getProperty("os.name", "") + " " + System.getProperty("os.arch", ""));

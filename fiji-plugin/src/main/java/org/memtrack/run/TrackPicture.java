@@ -27,7 +27,7 @@ import org.memtrack.video.Film;
  */
 public final class TrackPicture {
     /** Small films are enlarged, so that lines do not hide the bacteria. */
-    private static final int WANTED_WIDTH = 1200;
+    private static final int WANTED_WIDTH = 1000;
 
     private static final int CAPTION = 28;
 
@@ -41,7 +41,7 @@ public final class TrackPicture {
     public static TrackPicture of(Film film, TrackedFilm tracked) {
         int width = film.info().width();
         int height = film.info().height();
-        int scale = Math.max(1, WANTED_WIDTH / width);
+        int scale = (WANTED_WIDTH + width - 1) / width;
         BufferedImage image = new BufferedImage(width * scale, height * scale + CAPTION, BufferedImage.TYPE_INT_RGB);
         Graphics2D graphics = image.createGraphics();
         int lastFrame = film.info().frameCount() - 1;
@@ -109,14 +109,12 @@ public final class TrackPicture {
         graphics.setRenderingHint(RenderingHints.KEY_TEXT_ANTIALIASING, RenderingHints.VALUE_TEXT_ANTIALIAS_ON);
         graphics.setColor(Color.WHITE);
         graphics.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 14));
-        graphics.drawString(
-                "%s, frame %d: %d tracks; interpolated points dotted, boxes of interpolated points dashed"
-                        .formatted(
-                                film.info().title(),
-                                film.firstFrame() + film.info().frameCount(),
-                                tracked.tracks().size()),
-                8,
-                top + CAPTION - 9);
+        String text = "%s, frame %d: %d tracks; dotted and dashed: interpolated"
+                .formatted(
+                        film.info().title(),
+                        film.firstFrame() + film.info().frameCount(),
+                        tracked.tracks().size());
+        graphics.drawString(text, 8, top + CAPTION - 9);
     }
 
     private static double x(TrackPoint point, int scale) {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.macro;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.util.HashSet;
+import java.util.OptionalDouble;
+import java.util.Set;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.memtrack.client.Criterion;
+import org.memtrack.client.Thresholds;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.run.TrackingSettings;
+import org.memtrack.tracking.Association;
+import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.SortSettings;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.FrameAxis;
+
+class TrackRequestTest {
+    @Test
+    void whatIsLeftOutHasTheDefaultOfEachComponent() {
+        TrackRequest request = of("output=out");
+        assertThat(request.settings()).isEqualTo(TrackingSettings.DEFAULTS);
+        assertThat(request.film()).isEqualTo(FilmOptions.DEFAULTS);
+        assertThat(request.output()).isAbsolute().hasFileName("out");
+        assertThat(request.overlay()).isTrue();
+    }
+
+    @Test
+    void everyOptionReachesItsSetting() {
+        TrackRequest request = of("output=out preset=water criterion=[Maximum F1] model=mine model_version=2"
+                + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false overlay=false frames=z channel=2"
+                + " first_frame=3 last_frame=40 threshold_low=0.1 threshold_medium=0.2 threshold_high=0.3 max_size=33"
+                + " nms_iou=0.6 max_age=24 min_hits=4 iou_gate=0.07 association=motion interpolation=authors"
+                + " python=/p/python server=host:1");
+        assertThat(request.film())
+                .isEqualTo(new FilmOptions(FrameAxis.Z, 2, 3, 40, OptionalDouble.of(0.25), OptionalDouble.of(0.0167)));
+        assertThat(request.settings().detection().model()).isEqualTo("mine");
+        assertThat(request.settings().detection().modelVersion()).isEqualTo("2");
+        assertThat(request.settings().detection().criterion()).isEqualTo(Criterion.MAXIMUM_F1);
+        assertThat(request.settings().detection().thresholds()).isEqualTo(new Thresholds(0.1, 0.2, 0.3));
+        assertThat(request.settings().detection().maxSizePx()).isEqualTo(33);
+        assertThat(request.settings().detection().nmsIou()).isEqualTo(0.6);
+        assertThat(request.settings().detection().stabilise()).isFalse();
+        assertThat(request.settings().detection().cellLengthPx()).isEqualTo(8.5);
+        assertThat(request.settings().tracking())
+                .isEqualTo(new SortSettings(Association.MOTION, 0.07, 24, 4, Interpolation.AUTHORS, 30));
+        assertThat(request.settings().server().address()).isEqualTo("host:1");
+        assertThat(request.settings().server().python()).hasFileName("python");
+        assertThat(request.overlay()).isFalse();
+    }
+
+    @Test
+    void theOptionsOfARequestRepeatIt() {
+        TrackRequest request = of("output=[/a b/c] preset=water min_length=12 threshold_low=0.1 threshold_medium=0.2"
+                + " threshold_high=0.3 stabilise=false");
+        assertThat(of(OptionLine.format(request.options()))).isEqualTo(request);
+    }
+
+    @Test
+    void theLeastLengthGoesBeforeThePreset() {
+        assertThat(of("output=out preset=collagen min_length=12")
+                        .settings()
+                        .tracking()
+                        .minimumTrackLength())
+                .isEqualTo(12);
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    model=x                       | output=
+                    output=o thresold=1           | "thresold" is no option
+                    output=o criterion=best       | [maximum precision] or [maximum F1]
+                    output=o preset=agar          | collagen or water
+                    output=o stabilise=maybe      | true or false
+                    output=o max_age=2.5          | a whole number
+                    output=o pixel_size=0,25      | a number, with a point and not a comma
+                    output=o pixel_size=-1        | pixel size must be a positive number
+                    output=o pixel_size=NaN       | pixel size must be a positive number
+                    output=o iou_gate=1           | IoU gate
+                    output=o min_length=0         | minimum track length
+                    output=o nms_iou=2            | overlap
+                    output=o threshold_low=0.5    | Only some thresholds
+                    output=o threshold_low=2 threshold_medium=1 threshold_high=1 | low level must lie in 0 to 1, not 2.0
+                    output=o channel=0            | counted from 1
+                    output=o first_frame=9 last_frame=3 | 9 to 3
+                    output=o model=../secret      | name
+                    """)
+    void aWrongValueIsOneSentenceWithTheValue(String line, String expected) {
+        assertThatThrownBy(() -> of(line))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining(expected)
+                .message()
+                .endsWith(".")
+                .doesNotContain("\n");
+    }
+
+    @Test
+    void keysAreUniqueAndHelpIsThere() {
+        Set<String> keys = new HashSet<>();
+        for (TrackOption option : TrackOption.values()) {
+            assertThat(keys.add(option.key())).isTrue();
+            assertThat(option.help()).isNotBlank();
+            assertThat(option.kind() == TrackOption.Kind.CHOICE)
+                    .isEqualTo(!option.choices().isEmpty());
+        }
+    }
+
+    private static TrackRequest of(String line) {
+        return TrackRequest.of(OptionLine.parse(line));
+    }
+}

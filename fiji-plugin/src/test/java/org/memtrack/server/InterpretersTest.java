@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.io.File;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.detection.DetectorException;
+
+class InterpretersTest {
+    @TempDir
+    Path folder;
+
+    private Path given;
+    private Path named;
+    private Path onPath;
+    private Map<String, String> environment;
+
+    @BeforeEach
+    void makePrograms() throws Exception {
+        given = program("given", "python");
+        named = program("named", "python");
+        onPath = program("path", "python3");
+        environment = Map.of("PATH", "relative" + File.pathSeparator + onPath.getParent());
+    }
+
+    @Test
+    void theOneGivenStandsAloneThenTheVariableThenOursThenThePath() throws Exception {
+        Map<String, String> withVariable = Map.of("MEMTRACK_PYTHON", named.toString(), "PATH", environment.get("PATH"));
+        assertThat(commands(Interpreters.candidates(given, withVariable, folder)))
+                .containsExactly(given);
+        assertThat(commands(Interpreters.candidates(null, withVariable, folder)))
+                .containsExactly(named);
+        assertThat(commands(Interpreters.candidates(null, environment, folder))).containsExactly(onPath);
+
+        PythonEnvironment installed = new PythonEnvironment(folder.resolve("env-1"), "0.1.0");
+        Files.createDirectories(installed.python().getParent());
+        executable(installed.python());
+        assertThat(commands(Interpreters.candidates(null, environment, folder)))
+                .as("an environment that is not finished")
+                .containsExactly(onPath);
+        installed.use(folder);
+        assertThat(commands(Interpreters.candidates(null, environment, folder)))
+                .containsExactly(installed.python(), onPath);
+    }
+
+    @Test
+    void aPathToNothingIsOneSentence() {
+        assertThatThrownBy(() -> Interpreters.candidates(folder.resolve("nothing"), environment, folder))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("as given");
+        assertThatThrownBy(() -> Interpreters.candidates(null, Map.of("MEMTRACK_PYTHON", folder.toString()), folder))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("MEMTRACK_PYTHON");
+    }
+
+    @Test
+    void theDataFolderIsTheUsualOneOfEachSystem() {
+        Path home = folder.resolve("home");
+        assertThat(DataFolder.path(Map.of("MEMTRACK_HOME", folder.toString()), "Linux", home))
+                .isEqualTo(folder);
+        assertThat(DataFolder.path(Map.of(), "Linux", home)).endsWithRaw(Path.of(".local", "share", "memtrack"));
+        assertThat(DataFolder.path(Map.of(), "Mac OS X", home))
+                .endsWithRaw(Path.of("Library", "Application Support", "MEMTrack"));
+        assertThat(DataFolder.path(Map.of("LOCALAPPDATA", folder.toString()), "Windows 11", home))
+                .isEqualTo(folder.resolve("MEMTrack"));
+    }
+
+    private static List<Path> commands(List<Interpreter> interpreters) {
+        return interpreters.stream()
+                .map(found -> Path.of(found.command().get(0)))
+                .toList();
+    }
+
+    private Path program(String parent, String name) throws Exception {
+        Path made = folder.resolve(parent).resolve(Interpreters.windows() ? name + ".exe" : name);
+        Files.createDirectories(made.getParent());
+        return executable(made);
+    }
+
+    private static Path executable(Path file) throws Exception {
+        Files.writeString(file, "");
+        assertThat(file.toFile().setExecutable(true)).isTrue();
+        return file;
+    }
+}
