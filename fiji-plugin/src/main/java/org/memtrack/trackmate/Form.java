@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import java.awt.Font;
+import java.awt.GridBagConstraints;
+import java.awt.GridBagLayout;
+import java.awt.Insets;
+import javax.swing.BorderFactory;
+import javax.swing.JComponent;
+import javax.swing.JLabel;
+import javax.swing.JPanel;
+import javax.swing.JSpinner;
+import javax.swing.SpinnerNumberModel;
+
+/** Lays out rows of a label and a widget, as narrow as TrackMate's wizard. */
+final class Form {
+    private static final int TOOLTIP_WIDTH = 300;
+    private static final int WIZARD_WIDTH = 220;
+
+    private final JPanel panel;
+    private int row;
+
+    Form(JPanel panel) {
+        this.panel = panel;
+        panel.setLayout(new GridBagLayout());
+        panel.setBorder(BorderFactory.createEmptyBorder(8, 8, 8, 8));
+    }
+
+    /** A heading and, below it, what this is about. */
+    void title(String heading, String text) {
+        JLabel title = new JLabel(heading);
+        title.setFont(title.getFont().deriveFont(Font.BOLD, 14f));
+        note(title);
+        note(new JLabel(wrapped(text, WIZARD_WIDTH)));
+    }
+
+    /** A widget with its label; both show the tooltip. */
+    void row(String label, JComponent widget, String tooltip) {
+        JLabel name = new JLabel(label);
+        name.setLabelFor(widget);
+        name.setToolTipText(wrapped(tooltip, TOOLTIP_WIDTH));
+        widget.setToolTipText(wrapped(tooltip, TOOLTIP_WIDTH));
+        panel.add(name, at(0, 1, 0));
+        panel.add(widget, at(1, 1, 1));
+        row++;
+    }
+
+    /** Something as wide as the form. */
+    void note(JComponent wide) {
+        panel.add(wide, at(0, 2, 1));
+        row++;
+    }
+
+    /** Pushes the rows to the top. */
+    void fill() {
+        GridBagConstraints rest = at(0, 2, 1);
+        rest.weighty = 1;
+        panel.add(new JLabel(), rest);
+    }
+
+    static JSpinner whole(int value, int least, int greatest) {
+        return new JSpinner(new SpinnerNumberModel(value, least, greatest, 1));
+    }
+
+    static JSpinner number(double value, double least, double greatest, double step) {
+        return new JSpinner(new SpinnerNumberModel(value, least, greatest, step));
+    }
+
+    static String wrapped(String text, int width) {
+        return "<html><body style='width:%dpx'>%s</body></html>".formatted(width, text);
+    }
+
+    private GridBagConstraints at(int column, int width, double weight) {
+        GridBagConstraints constraints = new GridBagConstraints();
+        constraints.gridx = column;
+        constraints.gridy = row;
+        constraints.gridwidth = width;
+        constraints.weightx = weight;
+        constraints.fill = GridBagConstraints.HORIZONTAL;
+        constraints.anchor = GridBagConstraints.NORTHWEST;
+        constraints.insets = new Insets(3, 3, 3, 3);
+        return constraints;
+    }
+}

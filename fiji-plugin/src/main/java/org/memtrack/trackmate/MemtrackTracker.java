@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import fiji.plugin.trackmate.Logger;
+import fiji.plugin.trackmate.Spot;
+import fiji.plugin.trackmate.SpotCollection;
+import fiji.plugin.trackmate.tracking.SpotTracker;
+import ij.ImagePlus;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.concurrent.CancellationException;
+import org.jgrapht.graph.DefaultWeightedEdge;
+import org.jgrapht.graph.SimpleWeightedGraph;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.SortTracker;
+import org.memtrack.tracking.Track;
+import org.scijava.Cancelable;
+
+/**
+ * Tracks a collection of spots, and adds to it the spots it interpolates.
+ *
+ * <p>Spots that an earlier run interpolated are taken out; nothing is changed before the tracks are found.
+ */
+final class MemtrackTracker implements SpotTracker, Cancelable {
+    private final SpotCollection spots;
+    private final Map<String, Object> settings;
+    private final @Nullable ImagePlus image;
+
+    private SimpleWeightedGraph<Spot, DefaultWeightedEdge> graph = new SimpleWeightedGraph<>(DefaultWeightedEdge.class);
+    private Logger logger = Logger.VOID_LOGGER;
+    private String errorMessage = "";
+    private volatile boolean canceled;
+    private volatile @Nullable String cancelReason;
+
+    MemtrackTracker(SpotCollection spots, Map<String, Object> settings, @Nullable ImagePlus image) {
+        this.spots = spots;
+        this.settings = settings;
+        this.image = image;
+    }
+
+    @Override
+    public boolean checkInput() {
+        String problem = TrackerSettings.check(settings);
+        if (problem == null && image != null && image.getNSlices() > 1) {
+            problem =
+                    ("The %s works in one plane, and \"%s\" has %d slices: project them with Image > Stacks > Z Project,"
+                                    + " or swap Z and T in Image > Properties.")
+                            .formatted(MemtrackTrackerFactory.NAME, image.getTitle(), image.getNSlices());
+        }
+        if (problem == null && spots.getNSpots(true) == 0) {
+            problem = "There is no visible spot to track: lower the detector's thresholds or loosen the spot filters.";
+        }
+        errorMessage = problem == null ? "" : problem;
+        return problem == null;
+    }
+
+    @Override
+    public boolean process() {
+        try {
+            track(TrackerSettings.fromMap(settings));
+            return true;
+        } catch (CancellationException e) {
+            // What TrackMate expects of a module that was stopped.
+            return true;
+        } catch (IllegalArgumentException e) {
+            errorMessage = e.getMessage() + ".";
+            return false;
+        }
+    }
+
+    private void track(SortSettings sort) {
+        SpotFilm film = SpotFilm.of(spots, image);
+        // The length filter is applied here, so that the user learns how much it drops.
+        List<Track> all = new SortTracker(sort.withMinimumTrackLength(1))
+                .track(film.frames(), logger::setProgress, this::isCanceled);
+        List<Track> kept = new ArrayList<>(all);
+        kept.removeIf(track -> track.length() < sort.minimumTrackLength());
+
+        film.removeInterpolated();
+        TrackGraph built = TrackGraph.of(kept, film);
+        built.interpolated().forEach(spot -> spots.add(spot, SpotFilm.frameOf(spot)));
+        SpotMeasurements.complete(built.interpolated(), film.observed(), image);
+        graph = built.graph();
+
+        logger.log(String.format(
+                Locale.ROOT,
+                "%d tracks of at least %d frames, with %d interpolated spots; %d shorter ones were dropped.%n",
+                kept.size(),
+                sort.minimumTrackLength(),
+                built.interpolated().size(),
+                all.size() - kept.size()));
+        if (kept.isEmpty() && !all.isEmpty()) {
+            int longest = all.stream().mapToInt(Track::length).max().orElse(0);
+            logger.log(String.format(
+                    Locale.ROOT,
+                    "The longest track has %d frames: lower the least track length to see it.%n",
+                    longest));
+        }
+    }
+
+    @Override
+    public SimpleWeightedGraph<Spot, DefaultWeightedEdge> getResult() {
+        return graph;
+    }
+
+    @Override
+    public String getErrorMessage() {
+        return errorMessage;
+    }
+
+    @Override
+    public void setLogger(Logger logger) {
+        this.logger = logger;
+    }
+
+    @Override
+    public boolean isCanceled() {
+        return canceled;
+    }
+
+    @Override
+    public void cancel(@Nullable String reason) {
+        cancelReason = reason;
+        canceled = true;
+    }
+
+    @Override
+    public @Nullable String getCancelReason() {
+        return cancelReason;
+    }
+
+    /** One thread does: SORT goes from frame to frame. */
+    @Override
+    public void setNumThreads() {}
+
+    @Override
+    public void setNumThreads(int threads) {}
+
+    @Override
+    public int getNumThreads() {
+        return 1;
+    }
+}

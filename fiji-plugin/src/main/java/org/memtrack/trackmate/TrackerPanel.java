@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import fiji.plugin.trackmate.gui.components.ConfigurationPanel;
+import ij.ImagePlus;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import javax.swing.JComboBox;
+import javax.swing.JLabel;
+import javax.swing.JSpinner;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.tracking.Association;
+import org.memtrack.tracking.Interpolation;
+
+/** The tracker's settings in TrackMate's wizard. */
+final class TrackerPanel extends ConfigurationPanel {
+    private static final long serialVersionUID = 1;
+
+    private final JComboBox<Choice<Association>> association = new JComboBox<>(Choice.ASSOCIATIONS);
+    private final JSpinner iouGate = Form.number(0.05, 0, 0.99, 0.05);
+    private final JSpinner maximumAge = Form.whole(25, 0, 100_000);
+    private final JSpinner minimumHits = Form.whole(0, 0, 100_000);
+    private final JComboBox<Choice<Interpolation>> interpolation = new JComboBox<>(Choice.INTERPOLATIONS);
+    private final JSpinner minimumTrackLength = Form.whole(60, 1, 1_000_000);
+
+    TrackerPanel(@Nullable ImagePlus image) {
+        Form form = new Form(this);
+        form.title(
+                MemtrackTrackerFactory.NAME,
+                "Joins spots by SORT and fills in where a track was not seen for a while.");
+        form.row(
+                "Association",
+                association,
+                "Which spot continues which track: by the overlap of its box with the predicted one, as in the paper, or by"
+                        + " its distance from the predicted centre, for small or fast objects whose boxes do not overlap.");
+        form.row(
+                "Least overlap (IoU)",
+                iouGate,
+                "Intersection over union that a spot's box must have with the predicted one, 0 to 0.99; the paper's"
+                        + " authors use 0.05. Used when associating by overlap.");
+        form.row(
+                "Maximum age (frames)",
+                maximumAge,
+                "For how many frames a track goes on without a spot before it ends; 25 in the paper.");
+        form.row(
+                "Minimum hits", minimumHits, "How many spots a track needs: with fewer it is dropped; 0 in the paper.");
+        form.row(
+                "Where no spot was found",
+                interpolation,
+                "Fill the gaps between two spots of a track along the straight line, or go on by prediction for up to the"
+                        + " maximum age, also after a track's last spot, as the paper's authors do.");
+        form.row(
+                "Least track length (frames)",
+                minimumTrackLength,
+                "Shorter tracks are dropped, interpolated frames counted; 60 in collagen and 30 in water in the paper.");
+        if (image != null && image.getNFrames() > 1) {
+            form.note(new JLabel("This film has %d frames.".formatted(image.getNFrames())));
+        }
+        form.note(new JLabel("Interpolated spots carry the feature “Interpolated”."));
+        form.fill();
+        setSettings(TrackerSettings.MAP.defaults());
+    }
+
+    @Override
+    public void setSettings(Map<String, Object> settings) {
+        Choice.select(association, settings.get(TrackerSettings.ASSOCIATION));
+        iouGate.setValue(settings.get(TrackerSettings.IOU_GATE));
+        maximumAge.setValue(settings.get(TrackerSettings.MAXIMUM_AGE));
+        minimumHits.setValue(settings.get(TrackerSettings.MINIMUM_HITS));
+        Choice.select(interpolation, settings.get(TrackerSettings.INTERPOLATION));
+        minimumTrackLength.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH));
+    }
+
+    @Override
+    public Map<String, Object> getSettings() {
+        Map<String, Object> settings = new LinkedHashMap<>();
+        settings.put(TrackerSettings.ASSOCIATION, Choice.selected(association));
+        settings.put(TrackerSettings.IOU_GATE, ((Number) iouGate.getValue()).doubleValue());
+        settings.put(TrackerSettings.MAXIMUM_AGE, maximumAge.getValue());
+        settings.put(TrackerSettings.MINIMUM_HITS, minimumHits.getValue());
+        settings.put(TrackerSettings.INTERPOLATION, Choice.selected(interpolation));
+        settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH, minimumTrackLength.getValue());
+        return settings;
+    }
+
+    /** There is no preview to clean up. */
+    @Override
+    public void clean() {}
+}

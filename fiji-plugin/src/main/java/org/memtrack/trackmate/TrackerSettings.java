@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import java.util.Arrays;
+import java.util.LinkedHashMap;
+import java.util.Locale;
+import java.util.Map;
+import java.util.stream.Collectors;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.tracking.Association;
+import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.SortSettings;
+
+/** The tracker's settings as TrackMate keeps them; keys never change, since files hold them. */
+final class TrackerSettings {
+    static final String ASSOCIATION = "ASSOCIATION";
+    static final String IOU_GATE = "IOU_GATE";
+    static final String MAXIMUM_AGE = "MAXIMUM_AGE";
+    static final String MINIMUM_HITS = "MINIMUM_HITS";
+    static final String INTERPOLATION = "INTERPOLATION";
+    static final String MINIMUM_TRACK_LENGTH = "MINIMUM_TRACK_LENGTH";
+
+    static final SettingsMap MAP = new SettingsMap(MemtrackTrackerFactory.NAME, toMap(SortSettings.DEFAULTS));
+
+    private TrackerSettings() {}
+
+    static Map<String, Object> toMap(SortSettings settings) {
+        Map<String, Object> map = new LinkedHashMap<>();
+        map.put(ASSOCIATION, settings.association().name());
+        map.put(IOU_GATE, settings.iouGate());
+        map.put(MAXIMUM_AGE, settings.maximumAge());
+        map.put(MINIMUM_HITS, settings.minimumHits());
+        map.put(INTERPOLATION, settings.interpolation().name());
+        map.put(MINIMUM_TRACK_LENGTH, settings.minimumTrackLength());
+        return map;
+    }
+
+    /** One sentence when the map is not usable; null when it is. */
+    static @Nullable String check(@Nullable Map<String, Object> map) {
+        String problem = MAP.check(map);
+        if (problem != null || map == null) {
+            return problem;
+        }
+        try {
+            fromMap(map);
+            return null;
+        } catch (IllegalArgumentException e) {
+            return e.getMessage() + ".";
+        }
+    }
+
+    /** @throws IllegalArgumentException when the map is not usable */
+    static SortSettings fromMap(Map<String, Object> map) {
+        return new SortSettings(
+                choice(Association.class, ASSOCIATION, map),
+                (Double) map.get(IOU_GATE),
+                (Integer) map.get(MAXIMUM_AGE),
+                (Integer) map.get(MINIMUM_HITS),
+                choice(Interpolation.class, INTERPOLATION, map),
+                (Integer) map.get(MINIMUM_TRACK_LENGTH));
+    }
+
+    /** The constant that a setting names, in whatever case. */
+    static <E extends Enum<E>> E choice(Class<E> type, String key, Map<String, Object> map) {
+        String name = String.valueOf(map.get(key));
+        try {
+            return Enum.valueOf(type, name.trim().toUpperCase(Locale.ROOT));
+        } catch (IllegalArgumentException e) {
+            throw new IllegalArgumentException(
+                    "The setting %s must be %s, not \"%s\"".formatted(key, names(type), name), e);
+        }
+    }
+
+    private static <E extends Enum<E>> String names(Class<E> type) {
+        return Arrays.stream(type.getEnumConstants()).map(Enum::name).collect(Collectors.joining(" or "));
+    }
+}

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import fiji.plugin.trackmate.Model;
+import fiji.plugin.trackmate.Settings;
+import fiji.plugin.trackmate.Spot;
+import fiji.plugin.trackmate.TrackMate;
+import fiji.plugin.trackmate.detection.LogDetectorFactory;
+import fiji.plugin.trackmate.features.FeatureFilter;
+import fiji.plugin.trackmate.io.TmXmlReader;
+import fiji.plugin.trackmate.io.TmXmlWriter;
+import fiji.plugin.trackmate.tracking.jaqaman.SparseLAPTrackerFactory;
+import ij.IJ;
+import ij.ImagePlus;
+import java.io.File;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeSet;
+import java.util.stream.Collectors;
+import java.util.stream.StreamSupport;
+import org.jgrapht.graph.DefaultWeightedEdge;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+/** The tracker on spots of TrackMate's own detector, and what TrackMate does with its result. */
+class TrackerInTrackMateTest {
+    private static final String INTERPOLATED = "MEMTRACK_INTERPOLATED";
+
+    static TrackMate logAndSort(ImagePlus film, double radius, double threshold, int minimumTrackLength) {
+        Settings settings = new Settings(film);
+        settings.detectorFactory = new LogDetectorFactory<>();
+        settings.detectorSettings = settings.detectorFactory.getDefaultSettings();
+        settings.detectorSettings.put("RADIUS", radius);
+        settings.detectorSettings.put("THRESHOLD", threshold);
+        settings.trackerFactory = new MemtrackTrackerFactory();
+        settings.trackerSettings = settings.trackerFactory.getDefaultSettings();
+        settings.trackerSettings.put("MINIMUM_TRACK_LENGTH", minimumTrackLength);
+        settings.addAllAnalyzers();
+        TrackMate trackmate = new TrackMate(settings);
+        trackmate.setNumThreads(1);
+        return trackmate;
+    }
+
+    private static TrackMate tracked() {
+        return tracked(Films.twoSwimmers(20));
+    }
+
+    private static TrackMate tracked(ImagePlus film) {
+        TrackMate trackmate = logAndSort(film, 4 * Films.PIXEL_SIZE, 20, 10);
+        assertThat(trackmate.checkInput()).as(trackmate.getErrorMessage()).isTrue();
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        return trackmate;
+    }
+
+    static List<Spot> spots(Model model, double interpolated) {
+        return StreamSupport.stream(model.getSpots().iterable(true).spliterator(), false)
+                .filter(spot -> spot.getFeature(INTERPOLATED) == interpolated)
+                .toList();
+    }
+
+    @Test
+    void twoSwimmersAreTwoTracksAndTheGapIsFilledWithSpots() {
+        Model model = tracked().getModel();
+        assertThat(model.getTrackModel().nTracks(true)).isEqualTo(2);
+        for (int id : model.getTrackModel().trackIDs(true)) {
+            assertThat(model.getTrackModel().trackSpots(id)).hasSize(20);
+            assertThat(model.getTrackModel().trackEdges(id)).hasSize(19);
+        }
+        List<Spot> added = spots(model, 1);
+        assertThat(added.stream().map(spot -> spot.getFeature(Spot.FRAME).intValue())).containsExactlyInAnyOrder(8, 9, 10);
+        for (Spot spot : added) {
+            double frame = spot.getFeature(Spot.FRAME);
+            assertThat(spot.getFeature(Spot.POSITION_X)).isCloseTo((12 + 2 * frame) * Films.PIXEL_SIZE, within(0.1));
+            assertThat(spot.getFeature(Spot.POSITION_Y)).isCloseTo(20 * Films.PIXEL_SIZE, within(0.1));
+            assertThat(spot.getFeature(Spot.POSITION_T)).isCloseTo(frame * Films.INTERVAL, within(1e-9));
+            assertThat(spot.getFeature(Spot.RADIUS)).isCloseTo(4 * Films.PIXEL_SIZE, within(1e-9));
+            assertThat(spot.getFeature(Spot.QUALITY)).isZero();
+        }
+    }
+
+    @Test
+    void interpolatedSpotsHaveEveryFeatureThatObservedOnesHave() {
+        Model model = tracked().getModel();
+        Set<String> observed = spots(model, 0).get(0).getFeatures().keySet();
+        assertThat(observed).contains("MEAN_INTENSITY_CH1", "SNR_CH1");
+        spots(model, 1).forEach(spot -> assertThat(spot.getFeatures()).containsKeys(observed.toArray(String[]::new)));
+    }
+
+    @Test
+    void runningAgainReplacesWhatWasInterpolated() {
+        TrackMate trackmate = tracked();
+        int spots = trackmate.getModel().getSpots().getNSpots(false);
+        assertThat(spots).isEqualTo(40);
+        assertThat(trackmate.execTracking()).isTrue();
+        assertThat(trackmate.getModel().getSpots().getNSpots(false)).isEqualTo(spots);
+
+        trackmate.getSettings().trackerSettings.put("MAXIMUM_AGE", 1);
+        assertThat(trackmate.execTracking()).isTrue();
+        assertThat(spots(trackmate.getModel(), 1)).isEmpty();
+        assertThat(trackmate.getModel().getSpots().getNSpots(false)).isEqualTo(37);
+    }
+
+    @Test
+    void linkCostIsOneLessTheOverlap() {
+        Model model = tracked().getModel();
+        for (DefaultWeightedEdge edge : model.getTrackModel().edgeSet()) {
+            double cost = model.getFeatureModel().getEdgeFeature(edge, "LINK_COST");
+            // Squares of 8 px, 2 px apart: they share 6 of 10 columns.
+            assertThat(cost).isCloseTo(0.4, within(0.01));
+        }
+    }
+
+    @Test
+    void filtersColoursAndEditsWorkOnInterpolatedSpots() {
+        TrackMate trackmate = tracked();
+        Model model = trackmate.getModel();
+        assertThat(model.getFeatureModel().getSpotFeatureNames()).containsKey(INTERPOLATED);
+        trackmate.getSettings().addSpotFilter(new FeatureFilter(INTERPOLATED, 0.5, false));
+        assertThat(trackmate.execSpotFiltering(false)).isTrue();
+        assertThat(model.getSpots().getNSpots(true)).isEqualTo(37);
+        trackmate.getSettings().clearSpotFilters();
+        assertThat(trackmate.execSpotFiltering(false)).isTrue();
+
+        Spot added = spots(model, 1).get(1);
+        model.beginUpdate();
+        try {
+            model.removeSpot(added);
+        } finally {
+            model.endUpdate();
+        }
+        assertThat(model.getTrackModel().nTracks(true)).isEqualTo(3);
+    }
+
+    @Test
+    void whatTrackMateSavesItReadsBackEqual(@TempDir Path folder) throws Exception {
+        ImagePlus film = Films.twoSwimmers(20);
+        IJ.saveAsTiff(film, folder.resolve("film.tif").toString());
+        TrackMate trackmate = tracked(IJ.openImage(folder.resolve("film.tif").toString()));
+        File file = folder.resolve("tracks.xml").toFile();
+        TmXmlWriter writer = new TmXmlWriter(file);
+        writer.appendModel(trackmate.getModel());
+        writer.appendSettings(trackmate.getSettings());
+        writer.writeToFile();
+
+        TmXmlReader reader = new TmXmlReader(file);
+        Model read = reader.getModel();
+        assertThat(reader.isReadingOk()).as(reader.getErrorMessage()).isTrue();
+        assertEqual(read, trackmate.getModel());
+        Settings settings = reader.readSettings(reader.readImage());
+        assertThat(reader.isReadingOk()).as(reader.getErrorMessage()).isTrue();
+        assertThat(settings.trackerFactory).isInstanceOf(MemtrackTrackerFactory.class);
+        assertThat(settings.trackerSettings).isEqualTo(trackmate.getSettings().trackerSettings);
+    }
+
+    @Test
+    void interpolatedSpotsOfAReloadedFileAreReplacedToo(@TempDir Path folder) throws Exception {
+        TrackMate trackmate = tracked();
+        File file = folder.resolve("tracks.xml").toFile();
+        TmXmlWriter writer = new TmXmlWriter(file);
+        writer.appendModel(trackmate.getModel());
+        writer.writeToFile();
+        Model read = new TmXmlReader(file).getModel();
+        TrackMate again = new TrackMate(read, trackmate.getSettings());
+        assertThat(again.execTracking()).isTrue();
+        assertThat(read.getSpots().getNSpots(false)).isEqualTo(40);
+        assertThat(read.getTrackModel().nTracks(true)).isEqualTo(2);
+    }
+
+    @Test
+    void aSettingOfAnOlderVersionIsCompletedAndAForeignOneRefused(@TempDir Path folder) throws Exception {
+        TrackMate trackmate = tracked();
+        File file = folder.resolve("tracks.xml").toFile();
+        TmXmlWriter writer = new TmXmlWriter(file);
+        writer.appendModel(trackmate.getModel());
+        writer.appendSettings(trackmate.getSettings());
+        writer.writeToFile();
+        String xml = java.nio.file.Files.readString(file.toPath());
+        assertThat(xml).contains(" ASSOCIATION=\"OVERLAP\"");
+        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"OVERLAP\"", ""));
+        TmXmlReader reader = new TmXmlReader(file);
+        reader.getModel();
+        Map<String, Object> completed = reader.readSettings(trackmate.getSettings().imp).trackerSettings;
+        assertThat(reader.isReadingOk()).as(reader.getErrorMessage()).isTrue();
+        assertThat(completed).isEqualTo(trackmate.getSettings().trackerSettings);
+
+        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"OVERLAP\"", " FUTURE=\"1\""));
+        TmXmlReader foreign = new TmXmlReader(file);
+        foreign.getModel();
+        foreign.readSettings(trackmate.getSettings().imp);
+        assertThat(foreign.isReadingOk()).isFalse();
+        assertThat(foreign.getErrorMessage()).contains("FUTURE").contains("update MEMTrack");
+    }
+
+    @Test
+    void badSettingsAreRefusedBeforeTheRunWithOneSentence() {
+        TrackMate trackmate = logAndSort(Films.twoSwimmers(3), 1, 2, 1);
+        trackmate.getSettings().trackerSettings.put("IOU_GATE", 1.5);
+        assertThat(trackmate.checkInput()).isFalse();
+        assertThat(trackmate.getErrorMessage()).contains("IoU gate must lie in [0, 1), not 1.5");
+    }
+
+    @Test
+    void cancelledTrackingEndsWithoutTracks() {
+        TrackMate trackmate = tracked();
+        MemtrackTracker tracker = new MemtrackTracker(
+                trackmate.getModel().getSpots(), trackmate.getSettings().trackerSettings, trackmate.getSettings().imp);
+        tracker.cancel("enough");
+        assertThat(tracker.checkInput()).isTrue();
+        assertThat(tracker.process()).isTrue();
+        assertThat(tracker.isCanceled()).isTrue();
+        assertThat(tracker.getCancelReason()).isEqualTo("enough");
+        assertThat(tracker.getResult().vertexSet()).isEmpty();
+        assertThat(trackmate.getModel().getSpots().getNSpots(false)).isEqualTo(40);
+    }
+
+    @Test
+    void trackMatesOwnFilmIsTracked() {
+        ImagePlus film = Films.fakeTracks();
+        TrackMate trackmate = logAndSort(film, 2.5 * film.getCalibration().pixelWidth, 30, 10);
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        int sort = trackmate.getModel().getTrackModel().nTracks(true);
+        assertThat(sort).isBetween(2, 8);
+        Set<Integer> frames = trackmate.getModel().getTrackModel().vertexSet().stream()
+                .map(spot -> spot.getFeature(Spot.FRAME).intValue())
+                .collect(Collectors.toCollection(TreeSet::new));
+        assertThat(frames).hasSizeGreaterThan(40);
+
+        trackmate.getSettings().trackerFactory = new SparseLAPTrackerFactory();
+        trackmate.getSettings().trackerSettings = trackmate.getSettings().trackerFactory.getDefaultSettings();
+        assertThat(trackmate.execTracking()).isTrue();
+    }
+
+    /** Equal spots with their features, equal tracks as sets of spots, equal features of edges. */
+    static void assertEqual(Model read, Model written) {
+        assertThat(features(read)).isEqualTo(features(written));
+        assertThat(tracks(read)).isEqualTo(tracks(written));
+        assertThat(costs(read)).isEqualTo(costs(written));
+        assertThat(read.getSpaceUnits()).isEqualTo(written.getSpaceUnits());
+        assertThat(read.getFeatureModel().getSpotFeatureNames())
+                .isEqualTo(written.getFeatureModel().getSpotFeatureNames());
+    }
+
+    private static Map<Integer, Map<String, Double>> features(Model model) {
+        return StreamSupport.stream(model.getSpots().iterable(false).spliterator(), false)
+                .collect(Collectors.toMap(Spot::ID, spot -> Map.copyOf(spot.getFeatures())));
+    }
+
+    private static Set<Set<Integer>> tracks(Model model) {
+        return model.getTrackModel().trackIDs(false).stream()
+                .map(id -> model.getTrackModel().trackSpots(id).stream().map(Spot::ID).collect(Collectors.toSet()))
+                .collect(Collectors.toSet());
+    }
+
+    private static Map<String, Double> costs(Model model) {
+        return model.getTrackModel().edgeSet().stream()
+                .collect(Collectors.toMap(
+                        edge -> model.getTrackModel().getEdgeSource(edge).ID() + "-"
+                                + model.getTrackModel().getEdgeTarget(edge).ID(),
+                        edge -> model.getFeatureModel().getEdgeFeature(edge, "LINK_COST")));
+    }
+}

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package fiji.plugin.trackmate;
+
+public enum Dimension {
+    NONE,
+    QUALITY,
+    LENGTH
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package fiji.plugin.trackmate;
+
+public class Model {
+    public SpotCollection getSpots() {
+        throw new UnsupportedOperationException();
+    }
+
+    public void setSpots(SpotCollection spots, boolean notify) {
+        throw new UnsupportedOperationException();
+    }
+}
