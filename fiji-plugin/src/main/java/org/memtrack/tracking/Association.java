@@ -3,8 +3,11 @@ package org.memtrack.tracking;
 
 /** How it is decided which detection continues which track. */
 public enum Association {
-    /** By intersection over union of the detection with the predicted box, as in the paper. */
+    /** By intersection over union of the detection with the box that SORT predicts, as in the paper. */
     OVERLAP,
-    /** By the distance from the predicted centre, measured in the prediction's own uncertainty. */
+    /**
+     * By how likely a swimmer that runs and tumbles is at the place of the detection, against a new one or a false alarm
+     * being there. The size of the boxes plays no part.
+     */
     MOTION
 }

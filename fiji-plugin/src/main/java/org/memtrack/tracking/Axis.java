@@ -30,14 +30,25 @@ record Axis(double value, double velocity, double variance, double covariance, d
         return new Axis(measured, 0, noise.start, 0, noise.startVelocity);
     }
 
-    /** One frame later. */
+    /** One frame later, at a velocity that stays the same but for noise. */
     Axis predict(Noise noise) {
+        return predict(1, noise.step, noise.velocityStep);
+    }
+
+    /**
+     * One frame later.
+     *
+     * @param persistence share of the velocity that is left after the frame
+     * @param step variance added to the value
+     * @param velocityStep variance added to the velocity
+     */
+    Axis predict(double persistence, double step, double velocityStep) {
         return new Axis(
                 value + velocity,
-                velocity,
-                variance + 2 * covariance + velocityVariance + noise.step,
-                covariance + velocityVariance,
-                velocityVariance + noise.velocityStep);
+                persistence * velocity,
+                variance + 2 * covariance + velocityVariance + step,
+                persistence * (covariance + velocityVariance),
+                persistence * persistence * velocityVariance + velocityStep);
     }
 
     /** Corrected by a measured value. */

@@ -2,11 +2,9 @@
 package org.memtrack.tracking;
 
 import java.util.ArrayList;
-import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.stream.IntStream;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.tracking.Matching.Pair;
@@ -16,11 +14,11 @@ import org.memtrack.tracking.Matching.Pair;
  *
  * @param gate least intersection over union of a match
  */
-record OverlapAssociation(double gate) {
+record OverlapAssociation(double gate) implements Associator {
 
-    /** Matches of predicted and detected boxes, by their indices. */
-    List<Pair> match(List<Box> predicted, List<Detection> detections) {
-        List<Pair> overlapping = overlapping(predicted, detections);
+    @Override
+    public List<Pair> match(List<Tracklet> tracklets, List<Detection> detections) {
+        List<Pair> overlapping = overlapping(tracklets, detections);
         List<Pair> clear =
                 overlapping.stream().filter(pair -> pair.gain() > gate).toList();
         // SORT as published: without rivals above the gate there is nothing to assign. The assignment could still
@@ -29,55 +27,32 @@ record OverlapAssociation(double gate) {
         if (!clear.isEmpty() && oneToOne(clear)) {
             return clear;
         }
-        return Matching.best(predicted.size(), detections.size(), overlapping).stream()
+        return Matching.best(tracklets.size(), detections.size(), overlapping).stream()
                 .filter(pair -> pair.gain() >= gate)
                 .toList();
+    }
+
+    private static List<Pair> overlapping(List<Tracklet> tracklets, List<Detection> detections) {
+        DetectionsAlongX alongX = new DetectionsAlongX(detections);
+        double widest =
+                detections.stream().mapToDouble(d -> d.box().width()).max().orElse(0);
+        List<Pair> pairs = new ArrayList<>();
+        for (int i = 0; i < tracklets.size(); i++) {
+            int track = i;
+            Box box = tracklets.get(i).state().box();
+            alongX.forEachNear(box.centreX(), (box.width() + widest) / 2, detection -> {
+                double iou = box.iou(detections.get(detection).box());
+                if (iou > 0) {
+                    pairs.add(new Pair(track, detection, iou));
+                }
+            });
+        }
+        return pairs;
     }
 
     private static boolean oneToOne(List<Pair> pairs) {
         Set<Integer> tracks = new HashSet<>();
         Set<Integer> detections = new HashSet<>();
         return pairs.stream().allMatch(pair -> tracks.add(pair.track()) && detections.add(pair.detection()));
-    }
-
-    /** Every pair of boxes that overlap, found by a sweep along x. */
-    private static List<Pair> overlapping(List<Box> predicted, List<Detection> detections) {
-        int[] byLeftEdge = IntStream.range(0, detections.size())
-                .boxed()
-                .sorted(Comparator.comparingDouble(i -> detections.get(i).box().xMin()))
-                .mapToInt(Integer::intValue)
-                .toArray();
-        double widest =
-                detections.stream().mapToDouble(d -> d.box().width()).max().orElse(0);
-        List<Pair> pairs = new ArrayList<>();
-        for (int track = 0; track < predicted.size(); track++) {
-            Box box = predicted.get(track);
-            int first = firstRightOf(box.xMin() - widest, byLeftEdge, detections);
-            for (int i = first; i < byLeftEdge.length; i++) {
-                Box detected = detections.get(byLeftEdge[i]).box();
-                if (detected.xMin() >= box.xMax()) {
-                    break;
-                }
-                double iou = box.iou(detected);
-                if (iou > 0) {
-                    pairs.add(new Pair(track, byLeftEdge[i], iou));
-                }
-            }
-        }
-        return pairs;
-    }
-
-    private static int firstRightOf(double x, int[] byLeftEdge, List<Detection> detections) {
-        int low = 0;
-        int high = byLeftEdge.length;
-        while (low < high) {
-            int middle = (low + high) >>> 1;
-            if (detections.get(byLeftEdge[middle]).box().xMin() < x) {
-                low = middle + 1;
-            } else {
-                high = middle;
-            }
-        }
-        return low;
     }
 }

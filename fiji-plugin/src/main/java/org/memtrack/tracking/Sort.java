@@ -10,20 +10,35 @@ import org.memtrack.tracking.Matching.Pair;
 /**
  * SORT, frame by frame: predict, match, update, begin and end tracklets.
  *
- * <p>Bewley et al. 2016, "Simple online and realtime tracking". A tracklet gets the points that can be told at once; gaps
- * are filled afterwards.
+ * <p>Bewley et al. 2016, "Simple online and realtime tracking". A tracklet gets the points that can be told at once, so
+ * that a live mode can read them; gaps are filled afterwards.
  */
 final class Sort {
     private final SortSettings settings;
-    private final MotionModel model = MotionModel.SORT;
-    private final OverlapAssociation association;
+    private final MotionModel model;
+    private final Associator associator;
     private final List<Tracklet> tracklets = new ArrayList<>();
     private final List<Tracklet> growing = new ArrayList<>();
     private int framesSeen;
 
-    Sort(SortSettings settings) {
+    /**
+     * Before the first frame.
+     *
+     * @param boxEdge typical edge of a box, pixels
+     */
+    Sort(SortSettings settings, double boxEdge) {
         this.settings = settings;
-        this.association = new OverlapAssociation(settings.iouGate());
+        switch (settings.association()) {
+            case OVERLAP -> {
+                model = MotionModel.SORT;
+                associator = new OverlapAssociation(settings.iouGate());
+            }
+            case MOTION -> {
+                model = MotionModel.swimmers(boxEdge);
+                associator = new MotionAssociation(model);
+            }
+            default -> throw new IllegalArgumentException("Unknown: " + settings.association());
+        }
     }
 
     /** Takes the next frame, also one without detections. */
@@ -48,9 +63,7 @@ final class Sort {
 
     private List<Detection> match(List<Detection> detections) {
         boolean[] matched = new boolean[detections.size()];
-        List<Pair> pairs = association.match(
-                growing.stream().map(tracklet -> tracklet.state().box()).toList(), detections);
-        for (Pair pair : pairs) {
+        for (Pair pair : associator.match(growing, detections)) {
             growing.get(pair.track()).update(detections.get(pair.detection()));
             matched[pair.detection()] = true;
         }

@@ -4,7 +4,8 @@ package org.memtrack.tracking;
 /**
  * How detections are joined into tracks.
  *
- * @param association how it is decided which detection continues which track; the paper has {@code OVERLAP}
+ * @param association how it is decided which detection continues which track; the paper has {@code OVERLAP}, the
+ *     default is {@code MOTION}, which switches between swimmers less often
  * @param iouGate least intersection over union of a detection with the predicted box, in [0, 1); used by
  *     {@code OVERLAP} (authors' code; the paper gives none)
  * @param maximumAge frames a track may go on without a detection, at least 0 (paper section "Interpolated Tracker")
@@ -24,7 +25,7 @@ public record SortSettings(
 
     /** Films in collagen and other dense media, where swimmers are slow: tracks of at least 60 frames. */
     public static final SortSettings COLLAGEN =
-            new SortSettings(Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, 60);
+            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, 60);
 
     /** Films in water, where swimmers soon leave the focal plane: tracks of at least 30 frames. */
     public static final SortSettings WATER = COLLAGEN.withMinimumTrackLength(30);

@@ -36,7 +36,7 @@ public final class SortTracker {
      * @throws IllegalArgumentException when the frames are not in ascending order
      */
     public List<Track> track(List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
-        Sort sort = new Sort(settings);
+        Sort sort = new Sort(settings, typicalEdge(frames));
         int expected = frames.isEmpty() ? 0 : frames.get(0).frame();
         for (int i = 0; i < frames.size(); i++) {
             FrameDetections frame = frames.get(i);
@@ -52,6 +52,14 @@ public final class SortTracker {
             progress.accept((i + 1.0) / frames.size());
         }
         return finish(sort.tracklets());
+    }
+
+    private static double typicalEdge(List<FrameDetections> frames) {
+        return frames.stream()
+                .flatMap(frame -> frame.detections().stream())
+                .mapToDouble(detection -> Math.sqrt(detection.box().area()))
+                .average()
+                .orElse(0);
     }
 
     private static void stepUnless(BooleanSupplier cancelled, Sort sort, FrameDetections frame) {

@@ -11,6 +11,7 @@ final class Tracklet {
     private final MotionModel model;
     private final List<TrackPoint> points = new ArrayList<>();
     private BoxState state;
+    private BoxState lastDetected;
     private @Nullable Detection detection;
     private int framesWithoutDetection;
     private int hits;
@@ -19,6 +20,7 @@ final class Tracklet {
     Tracklet(Detection first, MotionModel model) {
         this.model = model;
         this.state = BoxState.start(first.box(), model);
+        this.lastDetected = state;
         this.detection = first;
         this.hits = 1;
     }
@@ -35,6 +37,7 @@ final class Tracklet {
 
     void update(Detection found) {
         state = state.update(found.box(), model);
+        lastDetected = state;
         detection = found;
         framesWithoutDetection = 0;
         hits++;
@@ -47,6 +50,11 @@ final class Tracklet {
 
     BoxState state() {
         return state;
+    }
+
+    /** What was known right after its last detection. */
+    BoxState lastDetected() {
+        return lastDetected;
     }
 
     /** As what it was detected in the present frame, or null. */
