@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import tifffile
 
 from memtrack.__main__ import main
 from memtrack.detections import Detections, FrameDetections, Level
@@ -171,6 +172,22 @@ def test_a_list_of_films_gives_a_line_each_and_one_for_all(tmp_path: Path, capsy
     assert "&lt;a&gt;" in (tmp_path / "out" / "evaluation.html").read_text(encoding="utf-8")
 
 
+def test_baselines_are_shown_at_their_best_on_this_truth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    truth = swimmers([1.0, 2.0], frames=6)
+    write_tracks(tmp_path / "t.csv", truth)
+    frames = np.full((6, 160, 120), 90, np.uint8)
+    for t, x, y in zip(truth.frames, truth.x.astype(int), truth.y.astype(int), strict=True):
+        frames[t, y - 1 : y + 2, x - 2 : x + 3] = 160
+    tifffile.imwrite(tmp_path / "film.tif", frames, imagej=True, metadata={"axes": "TYX"})
+    same = ("--truth", str(tmp_path / "t.csv"), "--tracks", str(tmp_path / "t.csv"))
+    content = run(tmp_path, *same, "--video", str(tmp_path / "film.tif"), "--baselines", "log")
+    log = content["baselines_tuned_on_this_truth"]["log"]
+    assert (log["tp"], log["fp"], log["fn"]) == (12, 0, 0)
+    assert log["sign"] in ("bright", "both")
+    assert "log with settings tuned on this truth" in capsys.readouterr().out
+    assert "log with settings tuned on this truth" in (tmp_path / "out" / "evaluation.html").read_text(encoding="utf-8")
+
+
 def test_detections_alone_can_be_judged(tmp_path: Path) -> None:
     truth = swimmers([1.0])
     write_tracks(tmp_path / "t.xml", truth)
@@ -189,11 +206,12 @@ def test_detections_alone_can_be_judged(tmp_path: Path) -> None:
         (["--truth", "t.csv", "--tracks", "none.csv"], "cannot read"),
         (["--truth", "t.csv", "--tracks", "t.csv", "--min-length", "0"], "--min-length is 0"),
         (["--truth", "t.csv", "--tracks", "t.csv", "--thresholds", "0.5", "2", "0.5"], "thresholds are 0.5, 2.0, 0.5"),
+        (["--truth", "t.csv", "--tracks", "t.csv", "--baselines", "log"], "give --video"),
         (["--films", "f.csv", "--truth", "t.csv"], "--films names the files"),
         (["--films", "t.csv"], "has no column film"),
         (["--films", "mixed.csv"], "film b has no tracks while others have"),
         (["--films", "twice.csv"], "line 3"),
-        (["--films", "size.csv"], "'-1' is not a positive number"),
+        (["--films", "size.csv"], "has '-1', expected a positive number"),
         (["--films", "empty.csv"], "lists no film"),
     ],
 )

@@ -12,7 +12,7 @@ from memtrack.evaluation.charts import Axis, Series, histogram, line_chart
 from memtrack.evaluation.curves import CurvePoint, best_f1
 from memtrack.evaluation.evaluate import Evaluation
 from memtrack.evaluation.matching import Counts, ratio
-from memtrack.evaluation.report import Report, headline, similarity_words, speed_test
+from memtrack.evaluation.report import Report, baseline_words, headline, similarity_words, speed_test
 from memtrack.motility import SPEED_LAG_SECONDS
 from memtrack.tracks import Motility
 
@@ -48,7 +48,7 @@ def as_page(report: Report) -> str:
         _headline(report),
         f'<div class="figures">{"".join(figures)}</div>',
         _classes(total),
-        _step_table(total),
+        _step_table(report),
         _definitions(report),
     ]
     return (
@@ -205,10 +205,11 @@ def _classes(total: Evaluation) -> str:
     )
 
 
-def _step_table(total: Evaluation) -> str:
+def _step_table(report: Report) -> str:
+    steps = [*_shown_steps(report.total).items()]
+    steps += [(baseline_words(baseline), baseline.counts) for baseline in report.baselines]
     rows = [
-        [name, str(c.tp), str(c.fp), str(c.fn), _word(c.precision), _word(c.recall), _word(c.f1)]
-        for name, c in _shown_steps(total).items()
+        [name, str(c.tp), str(c.fp), str(c.fn), _word(c.precision), _word(c.recall), _word(c.f1)] for name, c in steps
     ]
     return "<h2>Counts after each step</h2>" + _table(["step", "TP", "FP", "FN", "precision", "recall", "F1"], rows)
 

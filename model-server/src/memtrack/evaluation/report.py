@@ -12,6 +12,7 @@ from operator import add
 from typing import Any
 
 from memtrack import __version__
+from memtrack.evaluation.baselines import TunedBaseline
 from memtrack.evaluation.curves import CurvePoint
 from memtrack.evaluation.evaluate import Evaluation, Options, Speeds
 from memtrack.evaluation.matching import Counts
@@ -21,11 +22,12 @@ from memtrack.tracks import Motility
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Evaluations of films by name, with the curves over all of them by the name of the level."""
+    """Evaluations of films by name, and over all of them the curves by the name of the level and the baselines."""
 
     films: Mapping[str, Evaluation]
     curves: Mapping[str, Sequence[CurvePoint]]
     options: Options
+    baselines: Sequence[TunedBaseline] = ()
 
     @property
     def total(self) -> Evaluation:
@@ -59,7 +61,18 @@ def as_text(report: Report) -> str:
     for name, row in rows.items():
         cells = (f"{_number(row[column]):>{width}}" for column, width in zip(columns, widths, strict=True))
         lines.append("  ".join([f"{name:<{first}}", *cells]))
+    for baseline in report.baselines:
+        c = baseline.counts
+        lines.append(f"{baseline_words(baseline)}: precision {c.precision:.3f}, recall {c.recall:.3f}, F1 {c.f1:.3f}")
     return "\n".join(lines)
+
+
+def baseline_words(baseline: TunedBaseline) -> str:
+    """What a baseline is, and the settings it was given."""
+    return (
+        f"detections of {baseline.name} with settings tuned on this truth "
+        f"(radius {baseline.radius_px:g} px, {baseline.sign}, strength >= {baseline.threshold:.3g})"
+    )
 
 
 def _number(value: float) -> str:
@@ -82,6 +95,15 @@ def as_json(report: Report) -> str:
         "curves": {
             name: [{"threshold": point.threshold, **_counts(point.counts)} for point in curve]
             for name, curve in report.curves.items()
+        },
+        "baselines_tuned_on_this_truth": {
+            baseline.name: {
+                "radius_px": baseline.radius_px,
+                "sign": baseline.sign,
+                "threshold": baseline.threshold,
+                **_counts(baseline.counts),
+            }
+            for baseline in report.baselines
         },
     }
     return json.dumps(_plain(content), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
