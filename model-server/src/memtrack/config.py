@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from memtrack.errors import SettingsError
+from memtrack.libraries import engine_threads
 
 PROTOCOL = 1
 """Version of the contract in proto/memtrack/v1."""
@@ -40,6 +41,7 @@ class ServerConfig:
     host, port: where it listens; port 0 lets the system choose. token: what callers must send; None lets every local
     program in. tls_certificate, tls_key: PEM files. spool_folder: where films lie while they are worked on.
     parent_pid: the server ends when this process does. grace_seconds: what films get to finish at the end.
+    threads: threads a net runs on.
 
     Raises:
         SettingsError: the combination would let strangers in, or cannot work.
@@ -53,11 +55,14 @@ class ServerConfig:
     spool_folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
     parent_pid: int | None = None
     grace_seconds: float = 5.0
+    threads: int = field(default_factory=engine_threads)
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
         if not 0 <= self.port <= 65535:
             raise SettingsError(f"port {self.port} does not exist; give one from 1 to 65535, or 0 for any free one")
+        if not 1 <= self.threads <= 256:
+            raise SettingsError(f"threads is {self.threads}; give a number from 1 to 256")
         if (self.tls_certificate is None) != (self.tls_key is None):
             raise SettingsError("TLS needs both a certificate and its key; give --tls-cert and --tls-key")
         if not self.is_local and (self.tls_certificate is None or not self.token):

@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The computing libraries under this package: which versions are installed, and on which devices they work."""
+"""What the package computes with: versions of the libraries, devices that work, threads to use."""
 
 from __future__ import annotations
 
 import importlib.metadata
 import importlib.util
+import os
+import sys
 
 import numpy as np
 
 LIBRARIES = ("numpy", "opencv-python-headless", "openvino", "torch", "grpcio", "protobuf", "safetensors")
+
+
+def engine_threads() -> int:
+    """Threads for a net on this machine: all processors this process may use but one, which makes the features."""
+    usable = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+    return min(max(1, usable - 1), 256)
 
 
 def library_versions() -> dict[str, str]:

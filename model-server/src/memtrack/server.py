@@ -80,7 +80,7 @@ def start(config: ServerConfig) -> tuple[grpc.Server, DetectionService, health.H
     interceptors: list[grpc.ServerInterceptor] = [] if config.token is None else [TokenInterceptor(config.token)]
     server = grpc.server(pool, options=OPTIONS, interceptors=interceptors)
     spool = SpoolFolder(config.spool_folder)
-    detection = DetectionService(spool, config.limits)
+    detection = DetectionService(spool, config.limits, config.threads)
     detection_pb2_grpc.add_DetectionServiceServicer_to_server(detection, server)
     server_pb2_grpc.add_ServerServiceServicer_to_server(ServerService(spool, config.limits), server)
     healths = health.HealthServicer()

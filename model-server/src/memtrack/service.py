@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import threading
 import time
@@ -13,10 +14,10 @@ import grpc
 from memtrack import messages
 from memtrack.calls import FilmCall
 from memtrack.config import Limits
-from memtrack.detections import FilterCounts
+from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, ResourceLimitError, ShutdownError
-from memtrack.headers import FilmRequest, read_header
-from memtrack.models import Model, load_model
+from memtrack.headers import read_header
+from memtrack.models import load_model
 from memtrack.pipeline import detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts
 from memtrack.receiving import FrameReceiver
@@ -32,9 +33,10 @@ _log = logging.getLogger(__name__)
 class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
     """Each film has a thread that receives it and works on it, and the call's own thread, which answers the client."""
 
-    def __init__(self, spool: SpoolFolder, limits: Limits) -> None:
+    def __init__(self, spool: SpoolFolder, limits: Limits, threads: int) -> None:
         self._spool = spool
         self._limits = limits
+        self._threads = threads
         self._turns = Turns()
         self._costs = StageCosts()
         self._lock = threading.Lock()
@@ -104,7 +106,8 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
             film_sha256 = _receive(call, requests, film, progress)
             with self._turns.turn(progress.wait):
                 progress.clock.restart()
-                counts = _detect_frames(call, film, model, request, progress)
+                settings = dataclasses.replace(request.settings, threads=self._threads)
+                counts = _detect_frames(call, detect_film(film, model, settings, progress.report))
         self._costs.learn(progress.clock.seconds, film.geometry.pixels)
         return messages.summary(request, model, counts, film_sha256, progress.clock.seconds)
 
@@ -129,11 +132,9 @@ def _receive(call: FilmCall, requests: Iterator[pb.DetectFilmRequest], film: Spo
     return receiver.finish()
 
 
-def _detect_frames(
-    call: FilmCall, film: SpooledFilm, model: Model, request: FilmRequest, progress: _Progress
-) -> FilterCounts:
+def _detect_frames(call: FilmCall, frames: Iterator[FrameDetections]) -> FilterCounts:
     counts = FilterCounts()
-    for found in detect_film(film, model, request.settings, progress.report):
+    for found in frames:
         call.send(messages.frame(found))
         counts += found.counts
     return counts

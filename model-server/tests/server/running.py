@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -35,7 +36,9 @@ def eventually(condition: Callable[[], bool], what: str, seconds: float = PATIEN
 class RunningServer:
     """`memtrack serve` as a child process; ends with the `with` block."""
 
-    def __init__(self, spool_folder: Path, *options: str, token: str | None = TOKEN) -> None:
+    def __init__(
+        self, spool_folder: Path, *options: str, token: str | None = TOKEN, environment: dict[str, str] | None = None
+    ) -> None:
         self.spool_folder = spool_folder
         self.token = token
         words = [sys.executable, "-m", "memtrack", "serve", "--spool-folder", str(spool_folder), *options]
@@ -45,6 +48,7 @@ class RunningServer:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=log,
+                env={**os.environ, **(environment or {})},
                 encoding="utf-8",
             )
         assert self.process.stdin is not None

@@ -4,7 +4,11 @@
 from __future__ import annotations
 
 import hashlib
+import json
+import os
+import shutil
 import threading
+from pathlib import Path
 from typing import Any
 
 import grpc
@@ -188,6 +192,31 @@ def test_another_protocol_an_unknown_model_and_a_film_too_large_are_refused_on_t
     status, sentence = refusal(server, requests(film, width=8000, height=8000, frame_count=2000))
     assert status is grpc.StatusCode.RESOURCE_EXHAUSTED
     assert sentence.startswith("the film has 128.0 GB, the server takes 68.7 GB; ")
+
+
+def test_a_damaged_model_and_a_missing_engine_are_refused(tmp_path: Path) -> None:
+    shipped = load_model().folder
+    registry = tmp_path / "models"
+    for name in ("damaged", "torch-only"):
+        shutil.copytree(shipped, registry / name / "1")
+        card = json.loads((shipped / "model.json").read_text(encoding="utf-8")) | {"name": name}
+        if name == "torch-only":
+            card["files"] = {"weights.safetensors": card["files"]["weights.safetensors"]}
+        (registry / name / "1" / "model.json").write_text(json.dumps(card), encoding="utf-8")
+    weights = registry / "damaged" / "1" / "weights.safetensors"
+    weights.write_bytes(weights.read_bytes()[:-1])
+    without_torch = tmp_path / "without"
+    (without_torch / "torch").mkdir(parents=True)
+    (without_torch / "torch" / "__init__.py").write_text("raise ImportError('no torch here')", encoding="utf-8")
+    path = os.pathsep.join([str(without_torch), os.environ.get("PYTHONPATH", "")])
+    with RunningServer(tmp_path, environment={"MEMTRACK_MODELS": str(registry), "PYTHONPATH": path}) as server:
+        status, sentence = refusal(server, requests(noise(2, 20, 20), model_name="damaged"))
+        assert status is grpc.StatusCode.FAILED_PRECONDITION
+        assert "weights.safetensors of model damaged 1 is missing or damaged" in sentence
+        status, sentence = refusal(server, requests(noise(2, 20, 20), model_name="torch-only"))
+        assert status is grpc.StatusCode.FAILED_PRECONDITION
+        assert "needs PyTorch" in sentence
+        check_order(server.detect(noise(2, 20, 20)), 2)
 
 
 def test_two_films_at_once_both_come_right_and_the_later_one_hears_that_it_waits(server: RunningServer) -> None:

@@ -17,7 +17,7 @@ from memtrack.detections import FilterCounts, Level
 from memtrack.detections_io import suffix, write_detections
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
-from memtrack.libraries import library_versions
+from memtrack.libraries import engine_threads, library_versions
 from memtrack.models import CRITERIA, Model, load_model
 from memtrack.pipeline import DetectionSettings, detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts, Standing
@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--pixel-size-um", type=_positive, help="edge of a pixel, um (default: what the film says)")
     add("--frame-interval-s", type=_positive, help="time between frames, s (default: what the film says)")
     add("--engine", default=default.engine, help="auto, openvino or torch (default: %(default)s)")
-    add("--threads", type=int, default=default.threads, help="processor threads of the engine (default: %(default)s)")
+    add("--threads", type=int, default=engine_threads(), help="threads of the net (default here: %(default)s)")
     add("--quiet", action="store_true", help="no progress")
 
 

@@ -28,6 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "(default: %(default)s)")  # fmt: skip
     add("--max-film-bytes", type=int, default=limits.max_film_bytes, help="largest film taken (default: %(default)s)")
     add("--max-films", type=int, default=limits.max_films, help="films taken at the same time (default: %(default)s)")
+    add("--threads", type=int, default=config.threads, help="threads of the net (default here: %(default)s)")
     add("--idle-seconds", type=float, default=limits.idle_seconds, help="a film is given up when no frame comes for "
         "this long (default: %(default)s)")  # fmt: skip
     add("--grace-seconds", type=float, default=config.grace_seconds, help="what films get to finish after SIGTERM or "
@@ -48,6 +49,7 @@ def run(options: argparse.Namespace) -> int:
         spool_folder=options.spool_folder,
         parent_pid=options.parent_pid,
         grace_seconds=options.grace_seconds,
+        threads=options.threads,
         limits=Limits(
             max_film_bytes=options.max_film_bytes, max_films=options.max_films, idle_seconds=options.idle_seconds
         ),
