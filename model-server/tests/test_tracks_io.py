@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import random
 import re
 from pathlib import Path
 
@@ -149,6 +150,12 @@ def test_challenge_files_count_frames_from_one_and_give_corners(tmp_path: Path) 
         ("a.csv", "frame,id,x,y\n1,2,,4\n", "line 2 has '' for x"),
         ("a.csv", "frame,id,x,y\n1,2,three,4\n", "line 2 has 'three' for x"),
         ("a.csv", "frame,id,x,y\n1,2,3,4\n1,2,3,4\n", "two points in frame 1"),
+        ("a.csv", "frame,id,x,y\n1e300,2,3,4\n", "a frame is not a number from"),
+        ("a.csv", "frame,id,x,y\n1,99999999999999999999,3,4\n", "a track id is not a number from"),
+        ("a.csv", 'frame,id,x,y\n1,"2\r3",3\r4,4\n', "line 2"),
+        ("a.txt", "1e40,1,1,1,1,1\n", "a frame is not"),
+        ("a.mdf", "MTrackJ 1.5.1 Data File\nTrack 1\nPoint 1 1 1 1 1e40 1\n", "a frame is not"),
+        ("a.xml", "<?xml version='1.0' encoding='UTF-88'?><TrackMate/>", "not well-formed"),
         ("a.txt", "1,1,1,1,1\n", "line 1"),
         ("a.mdf", "TrackMate\n", "first line"),
         ("a.mdf", "MTrackJ 1.5.1 Data File\nPoint 1 1 1 1 1 1\n", "before any track"),
@@ -175,6 +182,43 @@ def test_a_missing_file_and_a_missing_folder_are_told(tmp_path: Path) -> None:
             read_tracks(tmp_path / f"none.{ending}")
     with pytest.raises(InvalidInputError, match="cannot write"):
         write_tracks(tmp_path / "none" / "a.csv", two_tracks())
+
+
+@pytest.mark.parametrize("ending", ["csv", "mdf", "xml", "txt"])
+def test_a_damaged_file_never_fails_in_another_way(tmp_path: Path, ending: str) -> None:
+    if ending == "txt":
+        write(tmp_path / "good.txt", "1,-1,10,20,30,40,0.5,-1,-1,-1\n2,3,1,1,2,2,.5\n")
+    else:
+        write_tracks(tmp_path / f"good.{ending}", two_tracks(width=3, height=4, scores=0.5, motility=Motility.LOW))
+    good = (tmp_path / f"good.{ending}").read_bytes()
+    damage = [
+        b"1e300",
+        b"nan",
+        b"-1",
+        b"inf",
+        b"99999999999999999999",
+        b"",
+        b'"',
+        b"\0",
+        b"\xff",
+        b"<",
+        b"\r",
+        b"Point",
+    ]
+    rng = random.Random(8)
+    refused = []
+    for _ in range(300):
+        start = rng.randrange(len(good))
+        numbers = list(re.finditer(rb"[-0-9.]+", good))
+        place = rng.choice(numbers).span() if rng.random() < 0.6 else (start, start + rng.randrange(3))
+        bad = tmp_path / f"bad.{ending}"
+        bad.write_bytes(good[: place[0]] + rng.choice(damage) + good[place[1] :])
+        try:
+            read_tracks(bad, linked_only=False)
+        except InvalidInputError as error:
+            refused.append(str(error))
+    assert len(refused) > 30
+    assert not [message for message in refused if "\n" in message]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import uuid
 from pathlib import Path
 
 from memtrack.errors import InvalidInputError
@@ -33,13 +33,13 @@ def write_text(path: Path, text: str) -> None:
         InvalidInputError: the folder is missing or cannot be written to.
     """
     try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        # Not tempfile's: its files can be read by their owner alone, and stay so after the renaming.
+        temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
         try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(text.encode("utf-8"))
+            temporary.write_bytes(text.encode("utf-8"))
             os.replace(temporary, path)
         except BaseException:
-            Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
             raise
     except OSError as error:
         raise InvalidInputError(f"cannot write {path}: {error.strerror}; check the folder and its rights") from error

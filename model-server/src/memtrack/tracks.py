@@ -99,16 +99,16 @@ class TrackTable:
             ValueError: columns of unequal length, a position that is not finite, a negative frame, or two points
                 of one track in one frame.
         """
-        frame_column = np.asarray(frames, np.int64)
+        frame_column, id_column = _whole(frames, "frame"), _whole(ids, "track id")
         n = len(frame_column)
-        order = np.lexsort((frame_column, np.broadcast_to(np.asarray(ids, np.int64), (n,))))
+        order = np.lexsort((frame_column, np.broadcast_to(id_column, (n,))))
 
         def column(values: ArrayLike, dtype: type) -> np.ndarray:
             return np.broadcast_to(np.asarray(values, dtype), (n,))[order]
 
         return TrackTable(
-            column(frames, np.int64),
-            column(ids, np.int64),
+            column(frame_column, np.int64),
+            column(id_column, np.int64),
             column(x, np.float64),
             column(y, np.float64),
             column(width, np.float64),
@@ -168,4 +168,14 @@ class TrackTable:
         return spans
 
 
+def _whole(values: ArrayLike, name: str) -> np.ndarray:
+    """Values as whole numbers, far from where they would overflow."""
+    column = np.asarray(values)
+    fits = column.dtype != object and bool((np.abs(column.astype(np.float64)) <= _GREATEST_NUMBER).all())
+    if not fits:
+        raise ValueError(f"a {name} is not a number from {-_GREATEST_NUMBER} to {_GREATEST_NUMBER}")
+    return column.astype(np.int64)
+
+
+_GREATEST_NUMBER = 2**31 - 1
 _COLUMNS = tuple(entry.name for entry in fields(TrackTable) if entry.name != "calibration")

@@ -49,7 +49,10 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
     text = read_text(path)
     header = text.partition("\n")[0]
     delimiter = max(",;\t", key=header.count)
-    rows = list(csv.reader(io.StringIO(text), delimiter=delimiter))
+    try:
+        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    except csv.Error as error:
+        raise ValueError(f"not a table ({error})") from error
     names = [name.strip().lower() for name in rows[0]] if rows else []
     places = {key: names.index(name) for key, known in _NAMES.items() for name in known if name in names}
     missing = [key for key in ("track", "frame", "x", "y") if key not in places]

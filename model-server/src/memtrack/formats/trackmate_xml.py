@@ -55,7 +55,7 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
         raise InvalidInputError(f"cannot read {path}: {error.strerror}; check the path") from error
     except DefusedXmlException as error:
         raise InvalidInputError(f"{path} has a document type or entities, which TrackMate never writes") from error
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, LookupError) as error:
         raise InvalidInputError(f"{path} is not well-formed XML ({error}); export it from TrackMate again") from error
     if root.tag == "TrackMate":
         return _read_model(root, calibration)
@@ -96,8 +96,9 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
                 (_whole(edge, "SPOT_SOURCE_ID"), _whole(edge, "SPOT_TARGET_ID")) for edge in track.iterfind("Edge")
             ]
             edges += links
-            motility = Motility(int(_number(track, "MEMTRACK_TRACK_MOTILITY", float(Motility.UNKNOWN))))
-            motility_of |= dict.fromkeys((spot for link in links for spot in link), motility)
+            if track.get("MEMTRACK_TRACK_MOTILITY") is not None:
+                motility = Motility(_whole(track, "MEMTRACK_TRACK_MOTILITY"))
+                motility_of |= dict.fromkeys((spot for link in links for spot in link), motility)
     track_of = _unbranched(spots, edges)
     rows = list(spots.values())
     return TrackTable.of(
