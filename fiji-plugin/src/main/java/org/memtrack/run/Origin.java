@@ -10,6 +10,7 @@ import java.util.Map;
 import java.util.TreeMap;
 import org.memtrack.client.DetectionSummary;
 import org.memtrack.client.ModelInUse;
+import org.memtrack.client.PluginVersion;
 import org.memtrack.formats.Provenance;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;

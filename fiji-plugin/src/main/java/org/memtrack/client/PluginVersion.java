@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-package org.memtrack.run;
+package org.memtrack.client;
 
 import java.io.IOException;
 import java.io.InputStream;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
+
+/** Finds a Python to make an environment with. */
+final class BasePython {
+    /** Oldest that the server's package takes. */
+    private static final int LEAST_MINOR = 11;
+
+    private static final String QUESTION =
+            "import sys; print('python', sys.version_info[0], sys.version_info[1], sys.maxsize > 2**32);"
+                    + " import ensurepip, venv; print('complete')";
+
+    private BasePython() {}
+
+    /**
+     * The first of the candidates that can make an environment.
+     *
+     * @throws DetectorException when there is none; the message tells what is wrong with each
+     */
+    static Interpreter choose(List<Interpreter> candidates, Progress progress) {
+        List<String> reasons = new ArrayList<>();
+        for (Interpreter candidate : candidates) {
+            String reason = objection(candidate, progress);
+            if (reason.isEmpty()) {
+                return candidate;
+            }
+            reasons.add(candidate.describe() + " " + reason);
+        }
+        throw new DetectorException(
+                "No Python 3.%d or newer was found%s: install one (on Windows and macOS from python.org,"
+                                .formatted(
+                                        LEAST_MINOR, reasons.isEmpty() ? "" : " (" + String.join("; ", reasons) + ")")
+                        + " on Linux from the system's packages), then run this command again.");
+    }
+
+    private static String objection(Interpreter candidate, Progress progress) {
+        WatchedProcess.End end;
+        try {
+            end = WatchedProcess.run(candidate.process("-c", QUESTION), progress, line -> {}, Duration.ofMinutes(1));
+        } catch (IOException e) {
+            return "cannot be run: " + e.getMessage();
+        }
+        String[] said = end.lines().stream()
+                .filter(line -> line.startsWith("python "))
+                .findFirst()
+                .orElse("")
+                .split(" ");
+        if (said.length != 4) {
+            return "is no Python";
+        }
+        if (!said[1].equals("3") || Integer.parseInt(said[2]) < LEAST_MINOR) {
+            return "is too old: " + said[1] + "." + said[2];
+        }
+        if (!said[3].equals("True")) {
+            return "is a 32-bit one";
+        }
+        return end.lines().contains("complete") ? "" : "lacks venv: install the package python3-venv";
+    }
+}

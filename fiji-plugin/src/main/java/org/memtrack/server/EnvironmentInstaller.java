@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.IOException;
+import java.nio.channels.FileChannel;
+import java.nio.channels.OverlappingFileLockException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.time.Duration;
+import java.time.LocalDateTime;
+import java.time.format.DateTimeFormatter;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.OptionalDouble;
+import java.util.concurrent.CancellationException;
+import java.util.concurrent.atomic.AtomicInteger;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
+
+/**
+ * Makes the Python environment of the server: a plain venv in the data folder, with the wheel of the jar in it. An
+ * environment is in use only when it is complete and its server has answered; until then the older one stays.
+ */
+public final class EnvironmentInstaller {
+    private static final Duration LIMIT = Duration.ofMinutes(90);
+    private static final long BASE_BYTES = 2L << 30;
+    private static final long TORCH_BYTES = 10L << 30;
+
+    private final Path dataFolder;
+    private final ServerWheel wheel;
+
+    /** An installer of the jar's own server into the user's data folder. */
+    public EnvironmentInstaller() {
+        this(DataFolder.path(), ServerWheel.fromJar());
+    }
+
+    EnvironmentInstaller(Path dataFolder, ServerWheel wheel) {
+        this.dataFolder = dataFolder;
+        this.wheel = wheel;
+    }
+
+    /**
+     * Makes a new environment and puts it into use in place of an older one.
+     *
+     * @param python to make it with; null to look for one on the path
+     * @param torch whether to install PyTorch too, for training and graphics cards
+     * @throws DetectorException when it cannot be made; the older one, if any, is in use as before
+     * @throws CancellationException when progress was cancelled; likewise
+     */
+    public PythonEnvironment install(@Nullable Path python, boolean torch, Progress progress) {
+        try {
+            Files.createDirectories(dataFolder);
+            checkSpace(torch ? TORCH_BYTES : BASE_BYTES);
+            try (FileChannel channel = FileChannel.open(
+                    dataFolder.resolve("install.lock"), StandardOpenOption.CREATE, StandardOpenOption.WRITE)) {
+                lock(channel);
+                return make(base(python, progress), torch, progress);
+            }
+        } catch (IOException e) {
+            throw new DetectorException(
+                    "The environment cannot be made in %s (%s): check the folder, or name another one in MEMTRACK_HOME."
+                            .formatted(dataFolder, e.getMessage()),
+                    e);
+        }
+    }
+
+    /** What pip and the others printed in the last installation. */
+    public Path log() {
+        return dataFolder.resolve("install.log");
+    }
+
+    /** Given back when the channel is closed, or the process ends. */
+    private void lock(FileChannel channel) throws IOException {
+        boolean free;
+        try {
+            free = channel.tryLock() != null;
+        } catch (OverlappingFileLockException inThisProcess) {
+            free = false;
+        }
+        if (!free) {
+            throw new DetectorException(
+                    "Another installation into %s is at work: wait for it to end.".formatted(dataFolder));
+        }
+    }
+
+    private static Interpreter base(@Nullable Path python, Progress progress) {
+        progress.report("Looking for Python", 0, OptionalDouble.empty(), "");
+        return BasePython.choose(
+                python == null
+                        ? Interpreters.onPath(System.getenv())
+                        : Interpreters.candidates(python, System.getenv(), python),
+                progress);
+    }
+
+    private PythonEnvironment make(Interpreter base, boolean torch, Progress progress) throws IOException {
+        Files.deleteIfExists(log());
+        String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
+        Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
+        PythonEnvironment made = new PythonEnvironment(folder, wheel.version());
+        boolean complete = false;
+        try {
+            progress.report("Making the environment", 0.02, OptionalDouble.empty(), folder.toString());
+            step("making the environment", base.process("-m", "venv", folder.toString()), progress, 0.02, 0.1);
+            Path parcels = folder.resolve("memtrack-wheel");
+            wheel.writeTo(parcels);
+            ProcessBuilder pip = made.interpreter()
+                    .process(
+                            "-m",
+                            "pip",
+                            "install",
+                            "--no-input",
+                            "--disable-pip-version-check",
+                            "--progress-bar=off",
+                            // By its bare name: pip would read a bracket in a path as an extra.
+                            wheel.fileName() + (torch ? "[torch]" : ""));
+            step("installing the packages", pip.directory(parcels.toFile()), progress, 0.1, 0.9);
+            progress.report("Trying the server", 0.9, OptionalDouble.empty(), "");
+            tryServer(made, progress);
+            made.use(dataFolder);
+            complete = true;
+        } finally {
+            if (!complete) {
+                Folders.delete(folder);
+            }
+        }
+        Servers.end();
+        Folders.deleteOthers(dataFolder, "env-", folder);
+        progress.report("Installed", 1, OptionalDouble.empty(), folder.toString());
+        return made;
+    }
+
+    private void step(String doing, ProcessBuilder builder, Progress progress, double start, double end)
+            throws IOException {
+        Progress part = progress.between(start, end);
+        List<String> said = Collections.synchronizedList(new ArrayList<>());
+        AtomicInteger lines = new AtomicInteger();
+        Progress polled = new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {}
+
+            @Override
+            public boolean cancelled() {
+                int count = said.size();
+                if (count > lines.getAndSet(count)) {
+                    // How many lines pip will print is not known; the bar never stands still and never arrives.
+                    part.report(
+                            "Installing",
+                            1 - Math.exp(-count / 40.0),
+                            OptionalDouble.empty(),
+                            said.get(count - 1).strip());
+                }
+                return progress.cancelled();
+            }
+        };
+        WatchedProcess.End ended;
+        try {
+            ended = WatchedProcess.run(builder, polled, said::add, LIMIT);
+        } finally {
+            Files.write(log(), said, StandardCharsets.UTF_8, StandardOpenOption.CREATE, StandardOpenOption.APPEND);
+        }
+        if (ended.exitCode() != 0) {
+            throw new DetectorException(
+                    "Python failed while %s (%s): mend that and run this command again; all it said is in %s."
+                            .formatted(doing, InstallFailures.cause(ended.lines()), log()));
+        }
+    }
+
+    private static void tryServer(PythonEnvironment made, Progress progress) {
+        try {
+            LocalServer.start(made.interpreter(), progress).end();
+        } catch (StartException e) {
+            throw new DetectorException(
+                    "The environment was made but does not work, since %s: please report this."
+                            .formatted(e.getMessage()),
+                    e);
+        }
+    }
+
+    private void checkSpace(long wanted) throws IOException {
+        long free = Files.getFileStore(dataFolder).getUsableSpace();
+        if (free < wanted) {
+            throw new DetectorException(
+                    "%s has %.1f GB of free space and the environment may need %.0f GB: make room, or name"
+                                    .formatted(dataFolder, free / 1e9, wanted / 1e9)
+                            + " a folder on another disk in MEMTRACK_HOME.");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.IOException;
+import java.nio.file.FileVisitResult;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.SimpleFileVisitor;
+import java.nio.file.attribute.BasicFileAttributes;
+import java.util.List;
+import java.util.stream.Stream;
+
+/** Deletes folders of ours. */
+final class Folders {
+    private Folders() {}
+
+    /** Deletes a folder and all in it, not following links; without effect when it is not there. */
+    static void delete(Path folder) throws IOException {
+        if (!Files.exists(folder)) {
+            return;
+        }
+        Files.walkFileTree(folder, new SimpleFileVisitor<>() {
+            @Override
+            public FileVisitResult visitFile(Path file, BasicFileAttributes attributes) throws IOException {
+                Files.delete(file);
+                return FileVisitResult.CONTINUE;
+            }
+
+            @Override
+            public FileVisitResult postVisitDirectory(Path visited, IOException failure) throws IOException {
+                Files.delete(visited);
+                return FileVisitResult.CONTINUE;
+            }
+        });
+    }
+
+    /** Deletes the folders whose names begin so, but one; what another program holds open stays for the next time. */
+    static void deleteOthers(Path parent, String prefix, Path kept) throws IOException {
+        List<Path> others;
+        try (Stream<Path> all = Files.list(parent)) {
+            others = all.filter(folder -> folder.getFileName().toString().startsWith(prefix))
+                    .filter(folder -> !folder.equals(kept))
+                    .toList();
+        }
+        for (Path other : others) {
+            try {
+                delete(other);
+            } catch (IOException e) {
+                System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Not deleted yet: " + other, e);
+            }
+        }
+    }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.CancellationException;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+import org.memtrack.client.Progress;
+
+/** Runs a program to its end, or ends it and its children when the user cancels. */
+final class WatchedProcess {
+    private WatchedProcess() {}
+
+    /**
+     * How a program ended.
+     *
+     * @param exitCode 0 for success
+     * @param lines the last lines it printed, of both streams
+     */
+    record End(int exitCode, List<String> lines) {}
+
+    /**
+     * Runs a program.
+     *
+     * @param each told every line, in a thread of its own
+     * @param limit after which the program is ended
+     * @throws IOException when it cannot be started, or did not end in time
+     * @throws CancellationException when progress was cancelled; the program and its children have ended
+     */
+    static End run(ProcessBuilder builder, Progress progress, Consumer<String> each, Duration limit)
+            throws IOException {
+        Process process = builder.redirectErrorStream(true).start();
+        process.getOutputStream().close();
+        Tail output = new Tail("memtrack-output", process.getInputStream(), each);
+        long end = System.nanoTime() + limit.toNanos();
+        try {
+            while (!process.waitFor(100, TimeUnit.MILLISECONDS)) {
+                progress.throwIfCancelled();
+                if (System.nanoTime() > end) {
+                    throw new IOException("did not end within %d min".formatted(limit.toMinutes()));
+                }
+            }
+            output.finish();
+            return new End(process.exitValue(), output.lines());
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new CancellationException("Interrupted.");
+        } finally {
+            kill(process);
+        }
+    }
+
+    private static void kill(Process process) {
+        List<ProcessHandle> family = process.descendants().toList();
+        process.destroyForcibly();
+        family.forEach(ProcessHandle::destroyForcibly);
+        try {
+            // On Windows files can be deleted only when their process has ended.
+            process.waitFor(5, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

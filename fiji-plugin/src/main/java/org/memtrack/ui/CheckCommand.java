@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.ui;
+
+import ij.IJ;
+import ij.ImageJ;
+import ij.Macro;
+import ij.plugin.PlugIn;
+import ij.text.TextWindow;
+import java.awt.GraphicsEnvironment;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.TreeMap;
+import org.memtrack.client.ModelCard;
+import org.memtrack.client.PluginVersion;
+import org.memtrack.client.ServerInfo;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.OptionLine;
+import org.memtrack.server.DataFolder;
+import org.memtrack.server.PythonEnvironment;
+import org.memtrack.server.ServerConnection;
+import org.memtrack.server.ServerSettings;
+import org.memtrack.server.Servers;
+
+/** The command "MEMTrack Check Installation": versions, interpreter, devices, models and a round trip, as text to copy. */
+public final class CheckCommand implements PlugIn {
+    @Override
+    public void run(String argument) {
+        Commands.run(CheckCommand::check);
+    }
+
+    private static void check() {
+        String line = Macro.getOptions();
+        Map<String, String> options = OptionLine.parse(line == null ? "" : line);
+        options.keySet().stream()
+                .filter(key -> !key.equals("python") && !key.equals("server"))
+                .findFirst()
+                .ifPresent(key -> {
+                    throw new DetectorException(
+                            "\"%s\" is no option of MEMTrack Check Installation: the options are python and server."
+                                    .formatted(key));
+                });
+        String python = options.getOrDefault("python", "");
+        ServerSettings settings = new ServerSettings(options.get("server"), python.isEmpty() ? null : Path.of(python));
+        StringBuilder report = new StringBuilder(ourSide());
+        try (ServerConnection connection = Servers.acquire(settings, new StatusProgress())) {
+            report.append(serverSide(connection));
+            show(report.toString());
+        } catch (DetectorException e) {
+            report.append("Server: ").append(e.getMessage()).append('\n');
+            show(report.toString());
+            throw e;
+        }
+    }
+
+    private static String ourSide() {
+        String environment = PythonEnvironment.installed(DataFolder.path())
+                .map(installed -> "%s (server %s)".formatted(installed.folder(), installed.version()))
+                .orElse("none in " + DataFolder.path());
+        return """
+                MEMTrack plug-in: %s
+                ImageJ: %s%s, Java %s, %s %s
+                Installed Python environment: %s
+                """.formatted(
+                        PluginVersion.get(),
+                        ImageJ.VERSION,
+                        ImageJ.BUILD,
+                        System.getProperty("java.version"),
+                        System.getProperty("os.name"),
+                        System.getProperty("os.arch"),
+                        environment);
+    }
+
+    private static String serverSide(ServerConnection connection) {
+        ServerInfo info = connection.client().info(true);
+        long start = System.nanoTime();
+        connection.client().info(false);
+        double milliseconds = (System.nanoTime() - start) / 1e6;
+        StringBuilder report = new StringBuilder("""
+                Server: memtrack %s, protocol %d, round trip %.1f ms
+                Python: %s, %s
+                Libraries: %s
+                Devices: %s
+                Largest film: %.1f GB; free for films at work: %.1f GB
+                """.formatted(
+                        info.version(),
+                        info.protocol(),
+                        milliseconds,
+                        info.pythonVersion(),
+                        connection.origin(),
+                        new TreeMap<>(info.libraries()),
+                        String.join(", ", info.devices()),
+                        info.maxFilmBytes() / 1e9,
+                        info.spoolFreeBytes() / 1e9));
+        for (ModelCard model : connection.client().models()) {
+            report.append("Model: %s %s, SHA-256 %s. %s%n"
+                    .formatted(model.name(), model.version(), model.sha256(), model.description()));
+        }
+        if (!info.version().equals(PluginVersion.get())) {
+            report.append(
+                    "The server is of another version than the plug-in: run \"MEMTrack Install Python Environment\".\n");
+        }
+        return report.toString();
+    }
+
+    private static void show(String report) {
+        if (GraphicsEnvironment.isHeadless()) {
+            IJ.log(report);
+        } else {
+            new TextWindow("MEMTrack: installation", report, 800, 400);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.ui;
+
+import ij.IJ;
+import ij.Macro;
+import ij.gui.GenericDialog;
+import ij.plugin.PlugIn;
+import ij.plugin.frame.Recorder;
+import java.awt.Checkbox;
+import java.awt.GraphicsEnvironment;
+import java.awt.TextField;
+import java.nio.file.Path;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Optional;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.OptionLine;
+import org.memtrack.server.DataFolder;
+import org.memtrack.server.EnvironmentInstaller;
+import org.memtrack.server.PythonEnvironment;
+
+/** The command "MEMTrack Install Python Environment": makes or renews the server's environment. */
+public final class InstallCommand implements PlugIn {
+    @Override
+    public void run(String argument) {
+        Commands.run(InstallCommand::install);
+    }
+
+    private static void install() {
+        Optional<Map<String, String>> options = options(Macro.getOptions());
+        if (options.isEmpty()) {
+            return;
+        }
+        Map<String, String> given = new LinkedHashMap<>(options.get());
+        String python = given.getOrDefault("python", "");
+        boolean torch = torch(given.getOrDefault("torch", "false"));
+        given.keySet().stream()
+                .filter(key -> !key.equals("python") && !key.equals("torch"))
+                .findFirst()
+                .ifPresent(key -> {
+                    throw new DetectorException(
+                            "\"%s\" is no option of MEMTrack Install Python Environment: the options are python and torch."
+                                    .formatted(key));
+                });
+        PythonEnvironment made = new EnvironmentInstaller()
+                .install(python.isEmpty() ? null : Path.of(python), torch, new StatusProgress());
+        IJ.log("MEMTrack: the server %s is installed in %s".formatted(made.version(), made.folder()));
+        IJ.showStatus("MEMTrack: the Python environment is installed");
+    }
+
+    private static Optional<Map<String, String>> options(@Nullable String line) {
+        if (line != null || GraphicsEnvironment.isHeadless()) {
+            return Optional.of(OptionLine.parse(line == null ? "" : line));
+        }
+        GenericDialog dialog = new GenericDialog("MEMTrack");
+        dialog.addMessage(
+                "Makes a Python environment for MEMTrack's detection server in\n%s\n".formatted(DataFolder.path())
+                        + "About 150 MB are downloaded. An older one is replaced when the new one works.");
+        dialog.addStringField("Python (empty: found on the path)", "", 28);
+        dialog.addCheckbox("Also PyTorch, for training and graphics cards (several GB)", false);
+        dialog.showDialog();
+        if (dialog.wasCanceled()) {
+            return Optional.empty();
+        }
+        Map<String, String> options = new LinkedHashMap<>();
+        String python = ((TextField) dialog.getStringFields().get(0)).getText().strip();
+        if (!python.isEmpty()) {
+            options.put("python", python);
+        }
+        options.put("torch", Boolean.toString(((Checkbox) dialog.getCheckboxes().get(0)).getState()));
+        if (Recorder.record) {
+            options.forEach((key, value) -> Recorder.recordOption(key, value.replace('\\', '/')));
+        }
+        return Optional.of(options);
+    }
+
+    private static boolean torch(String value) {
+        if (!value.equals("true") && !value.equals("false")) {
+            throw new DetectorException("\"torch=%s\" is not possible: give true or false.".formatted(value));
+        }
+        return value.equals("true");
+    }
+}

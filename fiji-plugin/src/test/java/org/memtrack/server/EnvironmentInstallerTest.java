@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.io.IOException;
+import java.nio.channels.FileChannel;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.OptionalDouble;
+import java.util.concurrent.CancellationException;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
+
+/** Real environments of the Python on the path, with a wheel that needs no network. */
+@Timeout(120)
+class EnvironmentInstallerTest {
+    @TempDir
+    Path folder;
+
+    private Path data;
+
+    @BeforeEach
+    void chooseAnUncomfortableFolder() {
+        data = folder.resolve("my data [1] ü 细菌");
+    }
+
+    @Test
+    void aNewEnvironmentTakesThePlaceOfTheOlderOneOnlyWhenItWorks() throws Exception {
+        PythonEnvironment older = install(SmallWheel.of(SmallWheel.SERVER, ">=3"));
+        assertThat(PythonEnvironment.installed(data)).contains(older);
+        assertThat(older.version()).isEqualTo("9.9.9");
+        assertThat(older.python()).isRegularFile();
+
+        assertThatThrownBy(() -> install(SmallWheel.of(SmallWheel.SERVER, ">=4")))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("installing the packages")
+                .hasMessageContaining("requires a different Python")
+                .hasMessageContaining("install.log");
+        assertThat(environments()).containsExactly(older.folder());
+        assertThat(PythonEnvironment.installed(data)).contains(older);
+        assertThat(data.resolve("install.log")).content().contains("requires a different Python");
+
+        List<String> said = new ArrayList<>();
+        PythonEnvironment newer = new EnvironmentInstaller(data, SmallWheel.of(SmallWheel.SERVER, ">=3"))
+                .install(null, false, heard(said));
+        assertThat(PythonEnvironment.installed(data)).contains(newer);
+        assertThat(environments()).containsExactly(newer.folder());
+        assertThat(said)
+                .contains(
+                        "Looking for Python", "Making the environment", "Installing", "Trying the server", "Installed");
+    }
+
+    @Test
+    void cancellingLeavesNothingBehind() throws Exception {
+        Progress cancelledWhenMade = new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {}
+
+            @Override
+            public boolean cancelled() {
+                return Files.isDirectory(data) && !environments().isEmpty();
+            }
+        };
+        ServerWheel wheel = SmallWheel.of(SmallWheel.SERVER, ">=3");
+        assertThatThrownBy(() -> new EnvironmentInstaller(data, wheel).install(null, false, cancelledWhenMade))
+                .isInstanceOf(CancellationException.class);
+        assertThat(environments()).isEmpty();
+        assertThat(PythonEnvironment.installed(data)).isEmpty();
+    }
+
+    @Test
+    void twoInstallationsDoNotMeet() throws Exception {
+        Files.createDirectories(data);
+        Path lock = data.resolve("install.lock");
+        try (FileChannel channel = FileChannel.open(lock, StandardOpenOption.CREATE, StandardOpenOption.WRITE)) {
+            channel.lock();
+            assertThatThrownBy(() -> install(SmallWheel.of(SmallWheel.SERVER, ">=3")))
+                    .isInstanceOf(DetectorException.class)
+                    .hasMessageContaining("wait for it");
+        }
+    }
+
+    @Test
+    void whatIsNoPythonIsToldSo() throws Exception {
+        Path java = Path.of(ProcessHandle.current().info().command().orElseThrow());
+        assertThatThrownBy(() ->
+                        new EnvironmentInstaller(data, SmallWheel.of("", ">=3")).install(java, false, Progress.NONE))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining(java.toString())
+                .hasMessageContaining("is no Python");
+    }
+
+    @Test
+    void knownCausesAreToldInPlainWords() {
+        assertThat(InstallFailures.cause(List.of(
+                        "WARNING: Retrying after connection broken by 'NewConnectionError(...)'",
+                        "ERROR: No matching distribution found for numpy>=1.26")))
+                .isEqualTo("the package index cannot be reached; check the network");
+        assertThat(InstallFailures.cause(List.of("ERROR: [Errno 28] No space left on device")))
+                .isEqualTo("the disk is full");
+        assertThat(InstallFailures.cause(List.of("Collecting x", "ERROR: something new", "[notice] a new pip")))
+                .isEqualTo("something new");
+        assertThat(InstallFailures.cause(List.of())).isEqualTo("it did not say why");
+    }
+
+    private PythonEnvironment install(ServerWheel wheel) {
+        return new EnvironmentInstaller(data, wheel).install(null, false, Progress.NONE);
+    }
+
+    private List<Path> environments() {
+        try (Stream<Path> all = Files.list(data)) {
+            return all.filter(path -> path.getFileName().toString().startsWith("env-"))
+                    .toList();
+        } catch (IOException e) {
+            throw new IllegalStateException(e);
+        }
+    }
+
+    private static Progress heard(List<String> said) {
+        return new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
+                said.add(stage);
+            }
+
+            @Override
+            public boolean cancelled() {
+                return false;
+            }
+        };
+    }
+}
