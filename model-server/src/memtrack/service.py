@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import logging
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from typing import cast
 
 import grpc
 
@@ -104,11 +106,17 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
             call.send(messages.accepted(request, model, film))
             progress = _Progress(call, film, self._costs)
             film_sha256 = _receive(call, requests, film, progress)
-            with self._turns.turn(progress.wait):
+            settings = dataclasses.replace(request.settings, threads=self._threads)
+            frames = cast("Generator[FrameDetections]", detect_film(film, model, settings, progress.report))
+            # Closed before the spool is: the method's threads may be some frames ahead.
+            with self._turns.turn(progress.wait), contextlib.closing(frames):
                 progress.clock.restart()
-                settings = dataclasses.replace(request.settings, threads=self._threads)
-                counts = _detect_frames(call, detect_film(film, model, settings, progress.report))
+                counts = _send_frames(call, frames)
         self._costs.learn(progress.clock.seconds, film.geometry.pixels)
+        g, seconds = film.geometry, sum(progress.clock.seconds.values())
+        _log.info(
+            "film of %d x %d x %d: %d detections in %.1f s", g.width, g.height, g.frame_count, counts.kept, seconds
+        )
         return messages.summary(request, model, counts, film_sha256, progress.clock.seconds)
 
 
@@ -132,7 +140,7 @@ def _receive(call: FilmCall, requests: Iterator[pb.DetectFilmRequest], film: Spo
     return receiver.finish()
 
 
-def _detect_frames(call: FilmCall, frames: Iterator[FrameDetections]) -> FilterCounts:
+def _send_frames(call: FilmCall, frames: Iterator[FrameDetections]) -> FilterCounts:
     counts = FilterCounts()
     for found in frames:
         call.send(messages.frame(found))

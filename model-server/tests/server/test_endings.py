@@ -76,6 +76,13 @@ def test_a_film_cancelled_while_it_waits_leaves_the_queue(server: RunningServer,
     eventually(lambda: server.spools() == 0, "the working film's spool is gone", CANCEL_SECONDS)
 
 
+def test_a_client_whose_deadline_has_passed_leaves_nothing(server: RunningServer, long_film: np.ndarray) -> None:
+    with pytest.raises(grpc.RpcError) as late:
+        answer(server.detection.DetectFilm(requests(long_film), metadata=server.metadata, timeout=0.7))
+    assert late.value.code() is grpc.StatusCode.DEADLINE_EXCEEDED
+    eventually(lambda: server.spools() == 0, "the spool is gone", CANCEL_SECONDS)
+
+
 CLIENT = """
 import sys, time
 sys.path.insert(0, {tests!r})
