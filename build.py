@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds MEMTrack and runs it from a clone; needs Java 17 or newer, Maven and Python 3.10 or newer, nothing else.
+"""Builds MEMTrack and runs it from a clone; needs Java 17 or newer, Maven and Python 3.11 or newer, nothing else.
 
     python3 build.py track [FILM] [--output FOLDER] [--options "KEY=VALUE ..."]
     python3 build.py test
@@ -61,9 +61,10 @@ def run_track(film: Path | None, output: Path, options: str) -> None:
     maven("package", "-DskipTests")
     output.mkdir(parents=True, exist_ok=True)
     if film is None:
-        film = output / "simulated.tif"
-        step(f"Simulating a film of bacteria in collagen: {film}")
-        run(PYTHON, "-m", "memtrack", "simulate", "--out", film)
+        film = output / "simulated-film" / "collagen.tif"
+        film.parent.mkdir(exist_ok=True)
+        step(f"Simulating a film of bacteria in collagen, with its true tracks beside it: {film}")
+        run(PYTHON, "-m", "memtrack", "simulate", "--family", "collagen", film)
     step(f"Tracking {film} in headless ImageJ")
     classpath = (ROOT / "tests/target/classpath.txt").read_text(encoding="utf-8").strip()
     run(
@@ -99,8 +100,8 @@ def run_tests() -> None:
 
 def install_server(extras: str) -> None:
     """Brings the virtual environment .venv in step with model-server/pyproject.toml and the contract."""
-    if sys.version_info < (3, 10):
-        sys.exit(f"Python {sys.version.split()[0]} is too old; run build.py with Python 3.10 or newer.")
+    if sys.version_info < (3, 11):
+        sys.exit(f"Python {sys.version.split()[0]} is too old; run build.py with Python 3.11 or newer.")
     sources = [SERVER / "pyproject.toml", *sorted((ROOT / "proto").rglob("*.proto"))]
     wanted = hashlib.sha256(extras.encode() + b"".join(source.read_bytes() for source in sources)).hexdigest()
     stamp = VENV / "memtrack-install.txt"
