@@ -2,6 +2,8 @@
 package org.memtrack.formats;
 
 import java.io.InputStream;
+import java.io.InputStreamReader;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.Optional;
 import java.util.OptionalDouble;
@@ -26,7 +28,8 @@ final class XmlElements {
         factory.setProperty(XMLInputFactory.SUPPORT_DTD, false);
         factory.setProperty(XMLInputFactory.IS_SUPPORTING_EXTERNAL_ENTITIES, false);
         try {
-            reader = factory.createXMLStreamReader(in);
+            // Decoded here, as TrackMate writes it: the JDK's XML reader prints to the console what bytes it dislikes.
+            reader = factory.createXMLStreamReader(new InputStreamReader(in, StandardCharsets.UTF_8.newDecoder()));
         } catch (XMLStreamException e) {
             throw damaged(e);
         }

@@ -82,8 +82,8 @@ public enum TrackOption {
     ASSOCIATION(
             "association",
             "Association by",
-            "overlap",
-            "how detections are joined: by overlap as in the paper, or by distance from the expected place",
+            "motion",
+            "how detections are joined: by how swimmers move, or by overlap as in the paper",
             "overlap",
             "motion"),
     INTERPOLATION(

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.formats;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.OptionalDouble;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.Level;
+import org.memtrack.formats.TrackedWorlds.TrackedWorld;
+import org.memtrack.motility.MotilityClass;
+import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackPoint;
+
+/** What each writer writes, its reader reads. */
+class RoundTripTest {
+    @TempDir
+    Path folder;
+
+    @ParameterizedTest
+    @CsvSource({"1, true, FILL_GAPS", "2, false, FILL_GAPS", "3, true, AUTHORS", "4, false, AUTHORS"})
+    void trackMateXmlKeepsEverything(long seed, boolean calibrated, Interpolation interpolation) throws IOException {
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        Path file = folder.resolve("tracks ü [水].xml");
+
+        TrackMateXml.write(file, tracked);
+        ImportedTracks read = TrackMateXml.read(file);
+
+        assertThat(read.version()).isEqualTo("TrackMate 7.14.0");
+        assertThat(read.image()).isEqualTo(tracked.film().file());
+        assertSame(tracked, read, 1e-9);
+        assertThat(read.tracks()).allMatch(ImportedTrack::visible);
+        for (int i = 0; i < read.tracks().size(); i++) {
+            assertThat(read.tracks().get(i).motility())
+                    .isEqualTo(tracked.motility().get(i).motilityClass());
+        }
+        if (calibrated) {
+            assertThat(read.pixelSizeMicrometres().getAsDouble()).isCloseTo(0.2475, within(1e-12));
+            assertThat(read.frameIntervalSeconds().getAsDouble()).isCloseTo(1 / 60.0, within(1e-12));
+        } else {
+            assertThat(read.pixelSizeMicrometres()).isEmpty();
+            assertThat(read.frameIntervalSeconds()).isEmpty();
+        }
+    }
+
+    @Test
+    void linksCostOneMinusTheOverlapOfTheirBoxes() throws IOException {
+        TrackedFilm tracked = TrackedWorlds.of(5, true, Interpolation.FILL_GAPS).tracked();
+        Path file = folder.resolve("tracks.xml");
+
+        TrackMateXml.write(file, tracked);
+
+        List<TrackPoint> points = tracked.tracks().get(2).points();
+        ImportedTrack read = TrackMateXml.read(file).tracks().get(2);
+        assertThat(read.links()).hasSize(points.size() - 1);
+        for (int i = 1; i < points.size(); i++) {
+            assertThat(read.links().get(i - 1).cost())
+                    .isCloseTo(1 - points.get(i).box().iou(points.get(i - 1).box()), within(1e-12));
+        }
+    }
+
+    @Test
+    void detectionsOfNoTrackAreWrittenWhenAskedFor() throws IOException {
+        TrackedWorld world = TrackedWorlds.of(6, true, Interpolation.FILL_GAPS);
+        Path file = folder.resolve("tracks.xml");
+
+        TrackMateXml.write(file, world.tracked(), world.detections());
+
+        ImportedTracks read = TrackMateXml.read(file);
+        long detections = world.detections().stream()
+                .mapToLong(frame -> frame.detections().size())
+                .sum();
+        assertThat(read.spots().stream().filter(spot -> !spot.interpolated())).hasSize((int) detections);
+        assertThat(read.tracks()).hasSameSizeAs(world.tracked().tracks());
+    }
+
+    @ParameterizedTest
+    @CsvSource({"7, true, FILL_GAPS", "8, false, AUTHORS"})
+    void csvKeepsEverythingToFourDecimals(long seed, boolean calibrated, Interpolation interpolation)
+            throws IOException {
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        Path file = folder.resolve("tracks.csv");
+
+        TrackCsv.write(file, tracked);
+        ImportedTracks read = TrackCsv.read(file);
+
+        assertSame(tracked, read, 5.1e-5);
+        for (int i = 0; i < read.tracks().size(); i++) {
+            assertThat(read.tracks().get(i).motility())
+                    .isEqualTo(tracked.motility().get(i).motilityClass());
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource({"9, true, FILL_GAPS", "10, false, AUTHORS"})
+    void mdfKeepsPlacesAndWhatIsInterpolated(long seed, boolean calibrated, Interpolation interpolation)
+            throws IOException {
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        Path file = folder.resolve("tracks.mdf");
+
+        Mdf.write(file, tracked);
+        ImportedTracks read = Mdf.read(file);
+
+        assertThat(read.version()).isEqualTo("MTrackJ 1.5.1");
+        assertThat(read.tracks()).hasSameSizeAs(tracked.tracks());
+        for (Track track : tracked.tracks()) {
+            ImportedTrack same = read.tracks().stream()
+                    .filter(imported -> imported.name().endsWith(" Track " + (track.id() + 1)))
+                    .findFirst()
+                    .orElseThrow();
+            assertThat(same.spots()).hasSameSizeAs(track.points());
+            for (int i = 0; i < track.points().size(); i++) {
+                assertSamePlace(track.points().get(i), same.spots().get(i), 5.1e-5);
+            }
+        }
+    }
+
+    private static void assertSame(TrackedFilm tracked, ImportedTracks read, double tolerance) {
+        assertThat(tracked.tracks()).hasSizeGreaterThan(5);
+        assertThat(read.tracks()).hasSameSizeAs(tracked.tracks());
+        int interpolated = 0;
+        for (int i = 0; i < read.tracks().size(); i++) {
+            Track track = tracked.tracks().get(i);
+            ImportedTrack same = read.tracks().get(i);
+            assertThat(same.id()).isEqualTo(track.id());
+            assertThat(same.spots()).hasSameSizeAs(track.points());
+            assertThat(same.links()).hasSize(track.points().size() - 1);
+            for (int j = 0; j < track.points().size(); j++) {
+                TrackPoint point = track.points().get(j);
+                ImportedSpot spot = same.spots().get(j);
+                Detection detection = point.detection();
+                interpolated += point.interpolated() ? 1 : 0;
+                assertSamePlace(point, spot, tolerance);
+                assertThat(spot.width().getAsDouble()).isCloseTo(point.box().width(), within(tolerance));
+                assertThat(spot.height().getAsDouble()).isCloseTo(point.box().height(), within(tolerance));
+                assertThat(spot.level()).isEqualTo(detection == null ? Level.UNSPECIFIED : detection.level());
+                if (detection == null) {
+                    assertThat(spot.score()).isEqualTo(OptionalDouble.empty());
+                } else {
+                    assertThat(spot.score().getAsDouble()).isCloseTo(detection.score(), within(tolerance));
+                }
+            }
+        }
+        assertThat(interpolated).as("interpolated points in this world").isPositive();
+    }
+
+    private static void assertSamePlace(TrackPoint point, ImportedSpot spot, double tolerance) {
+        assertThat(spot.frame()).isEqualTo(point.frame());
+        assertThat(spot.x()).isCloseTo(point.box().centreX(), within(tolerance));
+        assertThat(spot.y()).isCloseTo(point.box().centreY(), within(tolerance));
+        assertThat(spot.interpolated()).isEqualTo(point.interpolated());
+    }
+
+    @Test
+    void noTracksAreWrittenAndReadAsNone() throws IOException {
+        TrackedFilm none = new TrackedFilm(
+                TrackedWorlds.of(1, true, Interpolation.FILL_GAPS).tracked().film(), List.of(), List.of());
+        Path xml = folder.resolve("none.xml");
+        Path csv = folder.resolve("none.csv");
+        Path mdf = folder.resolve("none.mdf");
+
+        TrackMateXml.write(xml, none);
+        TrackCsv.write(csv, none);
+        Mdf.write(mdf, none);
+
+        assertThat(TrackMateXml.read(xml).tracks()).isEmpty();
+        assertThat(TrackCsv.read(csv).tracks()).isEmpty();
+        assertThat(Mdf.read(mdf).tracks()).isEmpty();
+    }
+
+    @Test
+    void everyClassOfMotilityHasItsCluster() throws IOException {
+        TrackedFilm tracked =
+                TrackedWorlds.of(11, true, Interpolation.FILL_GAPS).tracked();
+        Path file = folder.resolve("tracks.mdf");
+
+        Mdf.write(file, tracked);
+
+        int known = 0;
+        while (tracked.motility().get(known).motilityClass().isEmpty()) {
+            known++;
+        }
+        MotilityClass motilityClass =
+                tracked.motility().get(known).motilityClass().orElseThrow();
+        String name = "Cluster %d Track %d".formatted(motilityClass.ordinal() + 1, known + 1);
+        assertThat(Mdf.read(file).tracks()).extracting(ImportedTrack::name).contains(name);
+    }
+}

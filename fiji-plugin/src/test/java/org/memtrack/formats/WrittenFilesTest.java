@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.formats;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.stream.Stream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.tracking.Interpolation;
+
+/** What stands in the files for other programs to read. */
+class WrittenFilesTest {
+    @TempDir
+    Path folder;
+
+    private final TrackedFilm tracked =
+            TrackedWorlds.of(1, true, Interpolation.FILL_GAPS).tracked();
+
+    @Test
+    void mdfIsAsciiWithCarriageReturnsAndColours() throws IOException {
+        Path file = folder.resolve("tracks.mdf");
+
+        Mdf.write(file, tracked);
+
+        String text = Files.readString(file, StandardCharsets.US_ASCII);
+        assertThat(text.split("\r\n")[0]).isEqualTo("MTrackJ 1.5.1 Data File");
+        assertThat(text).endsWith("End of MTrackJ Data File\r\n");
+        assertThat(text.replace("\r\n", "")).doesNotContain("\n", "\r");
+        assertThat(text.lines().filter(line -> line.startsWith("Track ")))
+                .hasSameSizeAs(tracked.tracks())
+                .allMatch(line -> line.matches("Track \\d+ [0-9A-F]{6} true"));
+        assertThat(text.lines().filter(line -> line.startsWith("Point ")))
+                .allMatch(line -> line.matches("Point \\d+ -?\\d+\\.\\d{4} -?\\d+\\.\\d{4} 1\\.0 \\d+\\.(0|25) 1\\.0"));
+    }
+
+    @Test
+    void csvHasOneHeaderRowAndNoCellThatASpreadsheetCouldRun() throws IOException {
+        Path file = folder.resolve("tracks.csv");
+        Path motility = folder.resolve("motility.csv");
+
+        TrackCsv.write(file, tracked);
+        MotilityCsv.write(motility, tracked);
+
+        List<String> lines = Files.readAllLines(file);
+        assertThat(lines.get(0)).isEqualTo(TrackCsv.HEADER);
+        assertThat(lines)
+                .hasSize(1
+                        + tracked.tracks().stream()
+                                .mapToInt(track -> track.points().size())
+                                .sum());
+        assertThat(Files.readAllLines(motility)).hasSize(1 + tracked.tracks().size());
+        for (Path table : List.of(file, motility)) {
+            List<String> rows = Files.readAllLines(table);
+            int columns = rows.get(0).split(",").length;
+            for (String row : rows.subList(1, rows.size())) {
+                assertThat(row.split(",", -1))
+                        .hasSize(columns)
+                        .allMatch(cell -> cell.matches("-?\\d+(\\.\\d+)?|[a-z]*"));
+            }
+        }
+    }
+
+    @Test
+    void numbersDoNotDependOnTheLanguageOfTheSystem() throws IOException {
+        Path english = folder.resolve("english.csv");
+        Path german = folder.resolve("german.csv");
+        TrackCsv.write(english, tracked);
+        Locale before = Locale.getDefault();
+        try {
+            Locale.setDefault(Locale.GERMANY);
+            TrackCsv.write(german, tracked);
+        } finally {
+            Locale.setDefault(before);
+        }
+
+        assertThat(german).hasSameTextualContentAs(english);
+    }
+
+    @Test
+    void trackMateXmlDeclaresEveryFeatureItUses() throws IOException {
+        Path file = folder.resolve("tracks.xml");
+
+        TrackMateXml.write(file, tracked);
+
+        String text = Files.readString(file);
+        for (SpotFeature feature : SpotFeature.values()) {
+            assertThat(text).contains("feature=\"" + feature.key() + "\"").contains(feature.key() + "=\"");
+        }
+        assertThat(text).contains("feature=\"LINK_COST\"").contains("DETECTOR_NAME=\"MANUAL_DETECTOR\"");
+    }
+
+    @Test
+    void aWriterThatFailsLeavesTheOldFileAndNothingElse() throws IOException {
+        Path target = Files.writeString(folder.resolve("tracks.csv"), "old");
+
+        assertThatThrownBy(() -> AtomicFiles.write(target, out -> {
+                    out.write(1);
+                    throw new IOException("disk full");
+                }))
+                .hasMessage("disk full");
+
+        assertThat(target).hasContent("old");
+        try (Stream<Path> files = Files.list(folder)) {
+            assertThat(files).containsExactly(target);
+        }
+    }
+
+    @Test
+    void anOlderFileIsReplaced() throws IOException {
+        Path target = Files.writeString(folder.resolve("tracks.csv"), "old");
+
+        TrackCsv.write(target, tracked);
+
+        assertThat(Files.readString(target)).startsWith(TrackCsv.HEADER);
+    }
+
+    @Test
+    void aFolderThatDoesNotExistIsAnIoException() {
+        assertThatThrownBy(() -> Mdf.write(folder.resolve("none").resolve("tracks.mdf"), tracked))
+                .isInstanceOf(IOException.class);
+    }
+
+    @Test
+    void provenanceKeepsWhatItIsGiven() throws IOException {
+        Provenance provenance = new Provenance(
+                "2026-11-22T02:00:00Z",
+                Map.of("plug-in", "0.1.0"),
+                Map.of("title", "Wässer <水>", "width", 660L, "pixel_size_um", 0.2475),
+                Map.of("name", "default", "thresholds", List.of(0.5, 0.25)),
+                Map.of("maximum_age", 25L),
+                Map.of("tracks", 12L),
+                List.of("No calibration."));
+        Path file = folder.resolve("tracks.json");
+
+        provenance.write(file);
+
+        assertThat(Provenance.read(file)).isEqualTo(provenance);
+        assertThat(Files.readString(file)).contains("Wässer <水>");
+    }
+
+    @Test
+    void aFileThatIsNoProvenanceIsNamed() throws IOException {
+        Path file = Files.writeString(folder.resolve("tracks.json"), "[1, 2");
+        Path empty = Files.writeString(folder.resolve("empty.json"), "");
+
+        assertThatThrownBy(() -> Provenance.read(file))
+                .isInstanceOf(FormatException.class)
+                .hasMessageContaining("is no provenance");
+        assertThatThrownBy(() -> Provenance.read(empty)).hasMessageContaining("it is empty");
+    }
+}
