@@ -10,27 +10,28 @@ from jaxtyping import Float, Int
 def assign(weights: Float[np.ndarray, "n m"]) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " k"]]:
     """Pair rows with columns, each used once at most, so that the sum of the pairs' weights is greatest.
 
-    Only pairs of positive weight are made. Shortest augmenting paths with dual prices (Jonker and Volgenant,
-    Computing 38, 1987), after rows and columns without any positive weight are put aside.
+    Only pairs of positive weight are made. Pairs that have no rival are made at once; the others are solved by shortest
+    augmenting paths with dual prices (Jonker and Volgenant, Computing 38, 1987).
 
     Returns:
         Row and column of each pair, by rising row.
     """
-    rows = np.flatnonzero((weights > 0).any(axis=1))
-    columns = np.flatnonzero((weights > 0).any(axis=0))
-    if not len(rows):
-        return rows, columns
-    positive = np.maximum(weights[np.ix_(rows, columns)], 0.0).astype(np.float64)
-    if (positive > 0).sum() == len(rows) == len(columns):
-        return rows, columns[positive.argmax(axis=1)]
-    if len(rows) <= len(columns):
-        row, column = _match_all_rows(-positive)
-    else:
-        column, row = _match_all_rows(-positive.T)
-    made = positive[row, column] > 0
-    row, column = row[made], column[made]
+    possible = weights > 0
+    rivals_in_row, rivals_in_column = possible.sum(axis=1), possible.sum(axis=0)
+    alone = possible & (rivals_in_row == 1)[:, None] & (rivals_in_column == 1)
+    row, column = np.nonzero(alone)
+    rows = np.flatnonzero((rivals_in_row > 0) & ~alone.any(axis=1))
+    columns = np.flatnonzero((rivals_in_column > 0) & ~alone.any(axis=0))
+    if len(rows):
+        contested = np.maximum(weights[np.ix_(rows, columns)], 0.0).astype(np.float64)
+        if len(rows) <= len(columns):
+            r, c = _match_all_rows(-contested)
+        else:
+            c, r = _match_all_rows(-contested.T)
+        made = contested[r, c] > 0
+        row, column = np.append(row, rows[r[made]]), np.append(column, columns[c[made]])
     order = np.argsort(row)
-    return rows[row[order]], columns[column[order]]
+    return row[order], column[order]
 
 
 def _match_all_rows(cost: Float[np.ndarray, "n m"]) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:

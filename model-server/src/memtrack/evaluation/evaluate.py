@@ -32,7 +32,7 @@ class Options:
 
     criterion: Criterion = field(default_factory=Criterion)
     min_length: int = 1
-    sweep: tuple[int, ...] = (1, 5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90, 120)
+    sweep: tuple[int, ...] = (5, 10, 15, 20, 25, 30, 40, 50, 60, 75, 90, 120)
     challenge_gate_px: float = 5.0
     pruner: PrunerSettings | None = None
 
@@ -151,18 +151,14 @@ def evaluate(film: FilmData, options: Options) -> Evaluation:
     }
     if film.tracks is None:
         return Evaluation(steps, truth_tracks=_tracks(film.truth.select(~film.truth.ignored)))
-    lengths = film.tracks.lengths
-    sweep = {
-        least: compare(film.truth, film.tracks.select(lengths >= least), options.criterion) for least in options.sweep
-    }
-    every = sweep.get(1) or compare(film.truth, film.tracks, options.criterion)
-    steps["SORT"] = every.counts
-    final = compare(film.truth, film.tracks.select(lengths >= options.min_length), options.criterion)
+    sweep = _length_sweep(film.truth, film.tracks, (1, *options.sweep), options.criterion)
+    steps["SORT"] = sweep[1]
+    final = compare(film.truth, film.tracks.select(film.tracks.lengths >= options.min_length), options.criterion)
     if options.min_length > 1:
         steps["length"] = final.counts
     return Evaluation(
         steps,
-        lengths={least: comparison.counts for least, comparison in sweep.items()},
+        lengths=sweep,
         classes=_by_class(final, film),
         tracking=tracking_sums(final),
         challenge=challenge_sums(final, options.challenge_gate_px),
@@ -172,6 +168,20 @@ def evaluate(film: FilmData, options: Options) -> Evaluation:
         truth_speeds=_speeds(final.truth, film.calibration),
         tracked_speeds=_speeds(final.predicted, film.calibration),
     )
+
+
+def _length_sweep(
+    truth: TrackTable, tracks: TrackTable, least_lengths: Sequence[int], criterion: Criterion
+) -> dict[int, Counts]:
+    """Counts by the least length of a track; longer ones drop more rows, so their number tells what is left."""
+    spans, counted, sweep = tracks.lengths, dict[int, Counts](), dict[int, Counts]()
+    for least in least_lengths:
+        kept = spans >= least
+        rows = int(kept.sum())
+        if rows not in counted:
+            counted[rows] = compare(truth, tracks.select(kept), criterion).counts
+        sweep[least] = counted[rows]
+    return sweep
 
 
 def _detection_steps(film: FilmData, options: Options) -> Iterator[tuple[str, TrackTable]]:
