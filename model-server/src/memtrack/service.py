@@ -102,6 +102,8 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
     def _detect(self, call: FilmCall, requests: Iterator[pb.DetectFilmRequest]) -> pb.DetectFilmResponse:
         request = read_header(_header(requests), self._limits)
         model = load_model(request.settings.model, request.settings.version)
+        # A missing computing library is said before the film is sent.
+        model.engine(request.settings.engine)
         with self._spool.open(request.geometry, request.calibration) as film:
             call.send(messages.accepted(request, model, film))
             progress = _Progress(call, film, self._costs)
@@ -113,10 +115,8 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
                 progress.clock.restart()
                 counts = _send_frames(call, frames)
         self._costs.learn(progress.clock.seconds, film.geometry.pixels)
-        g, seconds = film.geometry, sum(progress.clock.seconds.values())
-        _log.info(
-            "film of %d x %d x %d: %d detections in %.1f s", g.width, g.height, g.frame_count, counts.kept, seconds
-        )
+        size = f"{film.frame_count} frames of {film.width} x {film.height}"
+        _log.info("%s: %d detections in %.1f s", size, counts.kept, sum(progress.clock.seconds.values()))
         return messages.summary(request, model, counts, film_sha256, progress.clock.seconds)
 
 

@@ -213,7 +213,8 @@ def test_a_damaged_model_and_a_missing_engine_are_refused(tmp_path: Path) -> Non
         status, sentence = refusal(server, requests(noise(2, 20, 20), model_name="damaged"))
         assert status is grpc.StatusCode.FAILED_PRECONDITION
         assert "weights.safetensors of model damaged 1 is missing or damaged" in sentence
-        status, sentence = refusal(server, requests(noise(2, 20, 20), model_name="torch-only"))
+        head = pb.DetectFilmRequest(header=header(noise(2, 20, 20), model_name="torch-only"))
+        status, sentence = refusal(server, [head])
         assert status is grpc.StatusCode.FAILED_PRECONDITION
         assert "needs PyTorch" in sentence
         check_order(server.detect(noise(2, 20, 20)), 2)

@@ -51,7 +51,7 @@ def endless(film: np.ndarray) -> Iterator[pb.DetectFilmRequest]:
     ids=["receiving", "stabilising", "background", "detecting"],
 )
 def test_a_cancelled_film_leaves_within_two_seconds(server: RunningServer, long_film: np.ndarray, stage: int) -> None:
-    call = server.call(requests(long_film))
+    call = server.call(requests(long_film, no_stabilisation=stage > pb.STAGE_STABILISING))
     until(call, stage)
     assert server.spools() == 1
     call.cancel()
