@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tracks in tables: ours, the authors' `Raw Data.csv`, truth tables, and the MOT challenge's text files.
 
-Ours has one header row and a row a point, numbers in pixels:
-`track,frame,x,y,width,height,score,interpolated,ignored,motility`. Columns are found by name, in any order; only the
-track, the frame, x and y must be there. A truth table may say by `cls` (anything but "bacterium") or `edge` (1) that a
-row is neither right nor wrong to find.
+Ours has one header row and a row a point, positions and boxes in pixels:
+`track,frame,time_s,x,y,x_um,y_um,width,height,score,interpolated,ignored,motility`, as the plug-in writes it (which
+has the column level in place of ignored). Columns are found by name, in any order; only track, frame, x and y must be
+there. The calibration is read off the columns in seconds and micrometres. A truth table may say by `cls` (anything but
+"bacterium") or `edge` (1) that a row is neither right nor wrong to find.
 """
 
 from __future__ import annotations
@@ -15,16 +16,22 @@ import math
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float64
 
 from memtrack.files import read_text, write_text
 from memtrack.film import Calibration
 from memtrack.tracks import UNLINKED, Motility, TrackTable
+
+Column = Float64[np.ndarray, " n"]
+HEADER = "track,frame,time_s,x,y,x_um,y_um,width,height,score,interpolated,ignored,motility"
 
 _NAMES = {
     "track": ("track", "id", "track_id", "tid", "particle"),
     "frame": ("frame", "pid"),
     "x": ("x", "x_px", "x [pixel]"),
     "y": ("y", "y_px", "y [pixel]"),
+    "time": ("time_s",),
+    "x_um": ("x_um",),
     "width": ("width", "width_px"),
     "height": ("height", "height_px"),
     "score": ("score", "quality"),
@@ -67,7 +74,7 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
     def words(key: str) -> list[str]:
         return [row[places[key]].strip() if places[key] < len(row) else "" for _, row in lines]
 
-    def numbers(key: str, *, whole: bool = False, required: bool = False) -> np.ndarray:
+    def numbers(key: str, *, whole: bool = False, required: bool = False) -> Column:
         values = np.full(len(lines), np.nan)
         for i, (line, word) in enumerate(zip((line for line, _ in lines), words(key), strict=True)):
             values[i] = _number(word, line, names[places[key]])
@@ -75,16 +82,17 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
                 raise ValueError(f"line {line} has {word!r} for {names[places[key]]}, expected a number")
         return values
 
-    def optional(key: str) -> np.ndarray:
+    def optional(key: str) -> Column:
         return numbers(key) if key in places else np.full(len(lines), np.nan)
 
     ignored = (optional("ignored") == 1) | (optional("edge") == 1)
     if "class" in places:
         ignored |= np.array([word.lower() != "bacterium" for word in words("class")], np.bool_)
+    frame, x = numbers("frame", whole=True, required=True) - first_frame, numbers("x", required=True)
     return TrackTable.of(
-        numbers("frame", whole=True, required=True) - first_frame,
+        frame,
         numbers("track", whole=True, required=True),
-        numbers("x", required=True),
+        x,
         numbers("y", required=True),
         width=optional("width"),
         height=optional("height"),
@@ -92,7 +100,17 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
         interpolated=optional("interpolated") == 1,
         ignored=ignored,
         motility=[Motility.parse(word) for word in words("motility")] if "motility" in places else Motility.UNKNOWN,
+        calibration=Calibration(_slope(optional("x_um"), x), _slope(optional("time"), frame)),
     )
+
+
+def _slope(calibrated: Column, plain: Column) -> float | None:
+    """The factor from one column to the other by least squares; None without numbers or where it is not positive."""
+    known = np.isfinite(calibrated)
+    if not (plain[known] != 0).any():
+        return None
+    factor = float((calibrated[known] * plain[known]).sum() / (plain[known] ** 2).sum())
+    return factor if 0 < factor < math.inf else None
 
 
 def _number(word: str, line: int, column: str) -> float:
@@ -115,14 +133,18 @@ def write(path: Path, table: TrackTable) -> None:
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["track", "frame", "x", "y", "width", "height", "score", "interpolated", "ignored", "motility"])
+    writer.writerow(HEADER.split(","))
+    pixel, interval = (table.calibration.pixel_size_um, table.calibration.frame_interval_seconds)
+    pixel, interval = (math.nan if unit is None else unit for unit in (pixel, interval))
     for i in range(len(table)):
+        frame, x, y = int(table.frames[i]), table.x[i], table.y[i]
         motility = Motility(int(table.motility[i]))
         writer.writerow(
             [
                 int(table.ids[i]),
-                int(table.frames[i]),
-                *(_cell(column[i]) for column in (table.x, table.y, table.width, table.height, table.scores)),
+                frame,
+                *map(_cell, (frame * interval, x, y, x * pixel, y * pixel)),
+                *map(_cell, (table.width[i], table.height[i], table.scores[i])),
                 int(table.interpolated[i]),
                 int(table.ignored[i]),
                 "" if motility is Motility.UNKNOWN else motility.name.lower(),

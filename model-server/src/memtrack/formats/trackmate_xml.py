@@ -18,7 +18,7 @@ from xml.etree.ElementTree import Element
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import parse as parse_xml
 
-from memtrack.errors import InvalidInputError
+from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.film import Calibration
 from memtrack.tracks import UNLINKED, Motility, TrackTable
 
@@ -47,7 +47,8 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
 
     Raises:
         InvalidInputError: the file cannot be read, or is no XML of TrackMate.
-        ValueError: an impossible value, or positions in micrometres and no pixel size anywhere.
+        SettingsError: positions in micrometres, and no pixel size in the file nor in `calibration`.
+        ValueError: an impossible value.
     """
     try:
         root = parse_xml(path, forbid_dtd=True).getroot()
@@ -155,7 +156,9 @@ def _scale(unit: str, unit_size: float, calibration: Calibration) -> tuple[float
         return unit_size, None if in_micrometres is None else unit_size * in_micrometres
     if calibration.pixel_size_um is not None and in_micrometres is not None:
         return calibration.pixel_size_um / in_micrometres, calibration.pixel_size_um
-    raise ValueError(f"positions are in {unit!r} and the file has no pixel size; give --pixel-size-um")
+    raise SettingsError(
+        f"the positions in the TrackMate file are in {unit!r} and it has no pixel size; give --pixel-size-um"
+    )
 
 
 def _number(element: Element, name: str, default: float | None = None) -> float:
