@@ -100,16 +100,17 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
         interpolated=optional("interpolated") == 1,
         ignored=ignored,
         motility=[Motility.parse(word) for word in words("motility")] if "motility" in places else Motility.UNKNOWN,
-        calibration=Calibration(_slope(optional("x_um"), x), _slope(optional("time"), frame)),
+        calibration=Calibration(_factor(optional("x_um"), x), _factor(optional("time"), frame)),
     )
 
 
-def _slope(calibrated: Column, plain: Column) -> float | None:
-    """The factor from one column to the other by least squares; None without numbers or where it is not positive."""
-    known = np.isfinite(calibrated)
-    if not (plain[known] != 0).any():
+def _factor(calibrated: Column, plain: Column) -> float | None:
+    """What one column is multiplied by to give the other, read where rounding counts least; None if unknown."""
+    known = np.flatnonzero(np.isfinite(calibrated) & (plain != 0))
+    if not len(known):
         return None
-    factor = float((calibrated[known] * plain[known]).sum() / (plain[known] ** 2).sum())
+    row = known[np.abs(plain[known]).argmax()]
+    factor = float(calibrated[row]) / float(plain[row])
     return factor if 0 < factor < math.inf else None
 
 
