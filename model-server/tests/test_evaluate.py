@@ -134,7 +134,7 @@ def test_the_command_writes_a_page_and_a_json(tmp_path: Path, capsys: pytest.Cap
     content = run(
         tmp_path,
         *("--truth", str(tmp_path / "truth.csv"), "--tracks", str(tmp_path / "tracks.mdf")),
-        *("--detections", str(tmp_path / "d.json"), "--thresholds", "0.5", "0.5", "0.5", "--distance", "6"),
+        *("--detections", str(tmp_path / "d.json"), "--thresholds", "0.5,0.5,0.5", "--distance", "6"),
         *("--pixel-size-um", "0.25", "--frame-interval-s", "0.05", "--min-length", "10"),
     )
     assert content["criterion"] == "centres nearer than 6 px"
@@ -205,7 +205,8 @@ def test_detections_alone_can_be_judged(tmp_path: Path) -> None:
         (["--truth", "t.csv"], "nothing is given to compare"),
         (["--truth", "t.csv", "--tracks", "none.csv"], "cannot read"),
         (["--truth", "t.csv", "--tracks", "t.csv", "--min-length", "0"], "--min-length is 0"),
-        (["--truth", "t.csv", "--tracks", "t.csv", "--thresholds", "0.5", "2", "0.5"], "thresholds are 0.5, 2.0, 0.5"),
+        (["--truth", "t.csv", "--tracks", "t.csv", "--thresholds", "0.5,2,0.5"], "thresholds are 0.5, 2.0, 0.5"),
+        (["--truth", "t.csv", "--tracks", "t.csv", "--thresholds", "0.5,x"], "--thresholds is '0.5,x'"),
         (["--truth", "t.csv", "--tracks", "t.csv", "--baselines", "log"], "give --video"),
         (["--films", "f.csv", "--truth", "t.csv"], "--films names the files"),
         (["--films", "t.csv"], "has no column film"),

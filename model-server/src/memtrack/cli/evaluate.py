@@ -60,12 +60,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--frame-interval-s", type=_positive, help="time between frames, where the files do not say")
     parser.add_argument(
         "--thresholds",
-        type=float,
-        nargs="+",
-        metavar="SCORE",
-        help="score thresholds of the low, medium and high level: follows the candidates through the pruner",
+        metavar="LOW,MEDIUM,HIGH",
+        help="score thresholds of the levels: follows the candidates through the pruner's filters",
     )
-    parser.add_argument("--max-size", type=_positive, default=35.0, metavar="PX", help="pruner: greatest edge of a box")
+    parser.add_argument("--max-size-px", type=_positive, default=35.0, help="pruner: greatest edge of a box")
     parser.add_argument("--nms-iou", type=_share, default=0.7, help="pruner: greatest overlap of two boxes")
 
 
@@ -80,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
         criterion=Criterion(args.iou, args.distance, args.box_size),
         min_length=_min_length(args.min_length),
         challenge_gate_px=args.challenge_gate or args.distance or 5.0,
-        pruner=None if args.thresholds is None else PrunerSettings(tuple(args.thresholds), args.max_size, args.nms_iou),
+        pruner=None if args.thresholds is None else _pruner(args),
     )
     films = [film.read() for film in files]
     report = Report(
@@ -139,6 +137,14 @@ def _baselines(
             if names and paths.video
         ]
         return [baselines.tune(name, opened, options.criterion) for name in names]
+
+
+def _pruner(args: argparse.Namespace) -> PrunerSettings:
+    try:
+        thresholds = tuple(float(word) for word in args.thresholds.split(","))
+    except ValueError:
+        raise SettingsError(f"--thresholds is {args.thresholds!r}; give numbers such as 0.4,0.4,0.5") from None
+    return PrunerSettings(thresholds, args.max_size_px, args.nms_iou)
 
 
 def _min_length(frames: int) -> int:
