@@ -144,6 +144,9 @@ def test_the_command_writes_a_page_and_a_json(tmp_path: Path, capsys: pytest.Cap
     assert content["all_films"]["LocA"] == pytest.approx((16 * 5 / 6 + 3) / 19)
     assert list(content["all_films"]["steps"])[-2:] == ["SORT", "length"]
     assert set(content["curves"]) == {"low", "high", "pooled"}
+    # Of the two boxes a cell the worse one falls to NMS: at 0.9 all are found, once, and nothing else.
+    best = max(content["curves"]["pooled"], key=lambda point: point["f1"])
+    assert (best["tp"], best["fp"], best["fn"]) == (90, 0, 0)
     assert content["all_films"]["speed_um_per_s"]["truth"]["mean"] == pytest.approx(20 / 3)
     table = capsys.readouterr().out.splitlines()
     assert table[0].split()[:4] == ["film", "precision", "recall", "F1"]

@@ -16,7 +16,7 @@ from memtrack.evaluation.film_list import COLUMNS, FilmFiles, read_list
 from memtrack.evaluation.matching import Criterion
 from memtrack.evaluation.page import as_page
 from memtrack.evaluation.report import Report, as_json, as_text
-from memtrack.evaluation.stages import PrunerSettings, candidate_steps
+from memtrack.evaluation.stages import PrunerSettings, curve_sets
 from memtrack.files import write_text
 from memtrack.film import Calibration
 from memtrack.video.opening import open_film
@@ -83,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
     films = [film.read() for film in files]
     report = Report(
         {film.name: evaluate(film, options) for film in films},
-        _curves(films, options),
+        _curves(films, options, args.max_size_px, args.nms_iou),
         options,
         _baselines(args.baselines, files, films, options),
     )
@@ -116,14 +116,14 @@ def _files(args: argparse.Namespace) -> list[FilmFiles]:
     return files
 
 
-def _curves(films: list[FilmData], options: Options) -> dict[str, list[CurvePoint]]:
+def _curves(films: list[FilmData], options: Options, max_size_px: float, nms_iou: float) -> dict[str, list[CurvePoint]]:
     """A curve of each level's candidates and of all, where there are any."""
-    sets: dict[str, list[CurvePoint]] = {}
-    steps = [dict(candidate_steps(film.candidates)) for film in films if film.candidates is not None]
-    for name in steps[0] if steps else ():
-        pairs = [(film.truth, found[name]) for film, found in zip(films, steps, strict=True)]
-        sets[name] = precision_recall_curve(pairs, options.criterion)
-    return {name: curve for name, curve in sets.items() if curve}
+    sets = [curve_sets(film.candidates, max_size_px, nms_iou) for film in films if film.candidates is not None]
+    curves = {}
+    for name in sets[0] if sets else ():
+        pairs = [(film.truth, found[name]) for film, found in zip(films, sets, strict=True)]
+        curves[name] = precision_recall_curve(pairs, options.criterion)
+    return {name: curve for name, curve in curves.items() if curve}
 
 
 def _baselines(

@@ -108,7 +108,7 @@ def _curves(report: Report) -> list[str]:
     )
     svg = line_chart(lines, Axis("recall", 0, 1), Axis("precision", 0, 1))
     caption = (
-        "Candidates of each level against the whole truth. "
+        "Candidates of each level, after the size filter and NMS, against the whole truth. "
         f"Greatest F1, with the threshold read off this truth: {bests}."
     )
     pooled = list(drawn.values())[-1]
@@ -122,7 +122,7 @@ def _against_threshold(curve: Sequence[CurvePoint]) -> str:
         Axis("least score", min(0.0, x[0]), max(x[-1], 1e-9)),
         Axis("", 0, 1),
     )
-    return _figure("Candidates of all levels by score", svg, "Pooled, before the size filter and NMS.")
+    return _figure("Candidates of all levels by score", svg, "All levels pooled, after the size filter and NMS.")
 
 
 def _precision_recall_f1(x: Sequence[float], counts: Sequence[Counts], where: Sequence[str]) -> list[Series]:

@@ -50,31 +50,44 @@ def as_table(frames: Sequence[FrameDetections]) -> TrackTable:
 
 def candidate_steps(frames: Sequence[FrameDetections]) -> Iterator[tuple[str, TrackTable]]:
     """The candidates of each level, then of all levels pooled, by the name of the step."""
-    for level in Level:
-        of_level = [FrameDetections(f.frame, f.detections.select(f.detections.levels == level)) for f in frames]
-        yield level.name.lower(), as_table(of_level)
-    yield "pooled", as_table(frames)
+    for name, of_level in _levels(frames):
+        yield name, as_table(of_level)
+
+
+def curve_sets(frames: Sequence[FrameDetections], max_size_px: float, nms_iou: float) -> dict[str, TrackTable]:
+    """The same after the size filter and NMS, which a score threshold may as well follow: for precision and recall.
+
+    A box is suppressed only by better scored ones, so a threshold leaves the same whether it comes before or after.
+    """
+    return {name: as_table(_pruned(of_level, _ALL, max_size_px, nms_iou)) for name, of_level in _levels(frames)}
 
 
 def pruning_steps(frames: Sequence[FrameDetections], settings: PrunerSettings) -> Iterator[tuple[str, TrackTable]]:
     """What is left after each filter of the pruner, by the name of the step."""
-    everything = (0.0,) * len(Level)
     for name, thresholds, overlap in (
-        ("size", everything, 1.0),
+        ("size", _ALL, 1.0),
         ("score", settings.thresholds, 1.0),
         ("NMS", settings.thresholds, settings.nms_iou),
     ):
-        yield (
-            name,
-            as_table(
-                [
-                    FrameDetections(
-                        f.frame,
-                        prune(f.detections, thresholds=thresholds, max_size_px=settings.max_size_px, nms_iou=overlap)[
-                            0
-                        ],
-                    )
-                    for f in frames
-                ]
-            ),
+        yield name, as_table(_pruned(frames, thresholds, settings.max_size_px, overlap))
+
+
+_ALL = (0.0,) * len(Level)
+
+
+def _levels(frames: Sequence[FrameDetections]) -> Iterator[tuple[str, Sequence[FrameDetections]]]:
+    for level in Level:
+        of_level = [FrameDetections(f.frame, f.detections.select(f.detections.levels == level)) for f in frames]
+        yield level.name.lower(), of_level
+    yield "pooled", frames
+
+
+def _pruned(
+    frames: Sequence[FrameDetections], thresholds: tuple[float, ...], max_size_px: float, nms_iou: float
+) -> list[FrameDetections]:
+    return [
+        FrameDetections(
+            f.frame, prune(f.detections, thresholds=thresholds, max_size_px=max_size_px, nms_iou=nms_iou)[0]
         )
+        for f in frames
+    ]
