@@ -147,7 +147,7 @@ def test_a_region_keeps_what_is_in_it(gel: SimulatedFilm, model: Model) -> None:
 @pytest.mark.parametrize("shape", [(1, 1, 1), (1, 40, 50), (3, 5, 300), (2, 96, 96)])
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
 def test_films_of_any_shape_and_type_run(shape: tuple[int, int, int], dtype: type, model: Model) -> None:
-    frames = np.random.default_rng(0).integers(0, 255, shape).astype(dtype)
+    frames: np.ndarray = np.random.default_rng(0).integers(0, 255, shape).astype(dtype)
     assert len(run(ArrayFilm(frames), model)) == shape[0]
 
 

@@ -21,7 +21,7 @@ class OpenVinoEngine:
 
     def __init__(self, path: Path, threads: int = 1) -> None:
         try:
-            import openvino  # type: ignore[import-untyped]
+            import openvino
         except ImportError as error:
             raise EngineUnavailableError(
                 "the CPU engine needs OpenVINO: install it with 'pip install openvino'"

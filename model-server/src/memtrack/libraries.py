@@ -38,7 +38,7 @@ def working_devices() -> list[str]:
 def _openvino_devices() -> list[str]:
     if importlib.util.find_spec("openvino") is None:
         return []
-    import openvino  # type: ignore[import-untyped]
+    import openvino
     from openvino import opset13
 
     working = []

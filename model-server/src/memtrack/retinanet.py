@@ -109,7 +109,10 @@ class ResNet50Fpn(nn.Module):
         return out
 
 
-def build(architecture: Mapping[str, Any], channels: int) -> nn.Module:
+Net = CompactRetinaNet | ResNet50Fpn
+
+
+def build(architecture: Mapping[str, Any], channels: int) -> Net:
     """The net a card's or a configuration's `architecture` describes, with fresh weights.
 
     Raises:

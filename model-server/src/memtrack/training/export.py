@@ -26,8 +26,8 @@ def export(net: nn.Module, samples: Iterable[np.ndarray], folder: Path, *, quant
     Returns:
         Path of each file by its name in the registry.
     """
-    import nncf  # type: ignore[import-untyped]
-    import openvino  # type: ignore[import-untyped]
+    import nncf
+    import openvino
 
     net = net.cpu().float().eval().to(memory_format=torch.contiguous_format)
     state = {

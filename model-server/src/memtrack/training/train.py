@@ -17,7 +17,7 @@ from torch import nn
 from memtrack.errors import ModelNotFoundError
 from memtrack.models import load_model
 from memtrack.motion import SPECS
-from memtrack.retinanet import build
+from memtrack.retinanet import Net, build
 from memtrack.training.batches import Batches
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
 from memtrack.training.loss import detection_loss
@@ -47,7 +47,7 @@ def architecture(model: ModelSettings) -> dict[str, object]:
     return {"name": "compact", "widths": list(model.widths), "depths": list(model.depths)}
 
 
-def new_net(model: ModelSettings) -> nn.Module:
+def new_net(model: ModelSettings) -> Net:
     """The net to train: fresh, or with the weights of the model to start from."""
     channels = len(SPECS[model.features].channels)
     net = build(architecture(model), channels)
