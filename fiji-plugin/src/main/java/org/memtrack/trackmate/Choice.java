@@ -8,6 +8,7 @@ import javax.swing.ComboBoxModel;
 import javax.swing.JComboBox;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
+import org.memtrack.trackmate.DetectorSettings.ThresholdSource;
 
 /**
  * One of the values of a setting, in a combo box.
@@ -17,10 +18,15 @@ import org.memtrack.tracking.Interpolation;
  */
 record Choice<E extends Enum<E>>(E value, String label) {
     static final Vector<Choice<Association>> ASSOCIATIONS = new Vector<>(Arrays.asList(
-            new Choice<>(Association.OVERLAP, "by overlap"), new Choice<>(Association.MOTION, "by distance")));
+            new Choice<>(Association.MOTION, "by how swimmers move"),
+            new Choice<>(Association.OVERLAP, "by overlap (SORT)")));
     static final Vector<Choice<Interpolation>> INTERPOLATIONS = new Vector<>(Arrays.asList(
             new Choice<>(Interpolation.FILL_GAPS, "fill the gaps"),
             new Choice<>(Interpolation.AUTHORS, "go on by prediction")));
+    static final Vector<Choice<ThresholdSource>> THRESHOLD_SOURCES = new Vector<>(Arrays.asList(
+            new Choice<>(ThresholdSource.MAXIMUM_PRECISION, "maximum precision"),
+            new Choice<>(ThresholdSource.MAXIMUM_F1, "maximum F1"),
+            new Choice<>(ThresholdSource.GIVEN, "given below")));
 
     @Override
     public String toString() {

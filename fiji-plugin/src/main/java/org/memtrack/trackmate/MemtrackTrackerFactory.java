@@ -80,11 +80,11 @@ public final class MemtrackTrackerFactory implements SpotImageTrackerFactory {
 
     @Override
     public String getInfoText() {
-        return "<html>Joins the spots of any detector by SORT: a constant-velocity Kalman filter predicts where each track"
-                + " goes on, and spots are assigned by how much their boxes overlap the predicted ones (without a box, the"
-                + " square around the spot's radius).<p>Where a track has no spot, for a limited number of frames, it is"
-                + " interpolated: spots are added to the model, marked by the feature &ldquo;Interpolated&rdquo;,"
-                + " so that they can be coloured and filtered. Running the tracker again replaces"
+        return "<html>Joins the spots of any detector, one frame after the other: each track predicts where it goes on, and spots"
+                + " are assigned to tracks by how swimmers move, or, as in the paper, by how much their boxes overlap the"
+                + " predicted ones (SORT; without a box, the square around the spot's radius). <p>Where a track has no spot,"
+                + " for a limited number of frames, it is interpolated: spots are added to the model, marked by the feature"
+                + " &ldquo;Interpolated&rdquo;, so that they can be coloured and filtered. Running the tracker again replaces"
                 + " them. <p>Films in one plane; no splitting, no merging. It needs no Python.</html>";
     }
 

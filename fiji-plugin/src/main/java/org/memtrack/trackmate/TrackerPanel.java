@@ -31,8 +31,8 @@ final class TrackerPanel extends ConfigurationPanel {
         form.row(
                 "Association",
                 association,
-                "Which spot continues which track: by the overlap of its box with the predicted one, as in the paper, or by"
-                        + " its distance from the predicted centre, for small or fast objects whose boxes do not overlap.");
+                "Which spot continues which track: the one that a swimmer which runs and tumbles most likely is, which mixes"
+                        + " up fewer of them, or the one whose box overlaps the predicted one most, as in the paper.");
         form.row(
                 "Least overlap (IoU)",
                 iouGate,

@@ -6,11 +6,11 @@ import java.util.Locale;
 import java.util.OptionalDouble;
 
 /** Reads micrometres and seconds out of ImageJ's calibration, whose units are free text. */
-final class Units {
+public final class Units {
     private Units() {}
 
     /** Edge of a pixel in micrometres; empty when the image is in pixels, in an unknown unit, or in inches of a screen. */
-    static OptionalDouble pixelSizeMicrometres(Calibration calibration) {
+    public static OptionalDouble pixelSizeMicrometres(Calibration calibration) {
         return scaled(
                 calibration.pixelWidth,
                 switch (calibration.getUnit().trim().toLowerCase(Locale.ROOT)) {
@@ -33,7 +33,7 @@ final class Units {
     }
 
     /** Time between two frames in seconds; empty when the image does not say or names an unknown unit. */
-    static OptionalDouble frameIntervalSeconds(Calibration calibration) {
+    public static OptionalDouble frameIntervalSeconds(Calibration calibration) {
         String unit = calibration.getTimeUnit();
         return scaled(
                 calibration.frameInterval,

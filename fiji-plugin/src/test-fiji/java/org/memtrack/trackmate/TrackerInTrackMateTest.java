@@ -180,15 +180,15 @@ class TrackerInTrackMateTest {
         writer.appendSettings(trackmate.getSettings());
         writer.writeToFile();
         String xml = java.nio.file.Files.readString(file.toPath());
-        assertThat(xml).contains(" ASSOCIATION=\"OVERLAP\"");
-        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"OVERLAP\"", ""));
+        assertThat(xml).contains(" ASSOCIATION=\"MOTION\"");
+        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"MOTION\"", ""));
         TmXmlReader reader = new TmXmlReader(file);
         reader.getModel();
         Map<String, Object> completed = reader.readSettings(trackmate.getSettings().imp).trackerSettings;
         assertThat(reader.isReadingOk()).as(reader.getErrorMessage()).isTrue();
         assertThat(completed).isEqualTo(trackmate.getSettings().trackerSettings);
 
-        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"OVERLAP\"", " FUTURE=\"1\""));
+        java.nio.file.Files.writeString(file.toPath(), xml.replace(" ASSOCIATION=\"MOTION\"", " FUTURE=\"1\""));
         TmXmlReader foreign = new TmXmlReader(file);
         foreign.getModel();
         foreign.readSettings(trackmate.getSettings().imp);

@@ -9,4 +9,8 @@ public class Model {
     public void setSpots(SpotCollection spots, boolean notify) {
         throw new UnsupportedOperationException();
     }
+
+    public void setLogger(Logger logger) {
+        throw new UnsupportedOperationException();
+    }
 }
