@@ -24,6 +24,9 @@ record MotionModel(Noise position, Noise area, Noise aspect, double persistence,
      */
     private static final double SPEED = 4;
 
+    /** Share of a swimmer's velocity that is left after a frame. */
+    static final double PERSISTENCE = 0.97;
+
     /** Error of a box's centre, as a share of the box's edge; never less than half a pixel. */
     private static final double CENTRE_ERROR = 1 / 30.0;
 
@@ -32,6 +35,11 @@ record MotionModel(Noise position, Noise area, Noise aspect, double persistence,
         double error = Math.max(0.5, CENTRE_ERROR * boxEdge);
         double variance = error * error;
         return new MotionModel(
-                new Noise(variance, variance, SPEED * SPEED, 0.01, 0.005), SORT.area, SORT.aspect, 0.97, 0.03, 0.03);
+                new Noise(variance, variance, SPEED * SPEED, 0.01, 0.005),
+                SORT.area,
+                SORT.aspect,
+                PERSISTENCE,
+                0.03,
+                0.03);
     }
 }

@@ -47,7 +47,7 @@ final class TrackerPanel extends ConfigurationPanel {
         form.row(
                 "Where no spot was found",
                 interpolation,
-                "Fill the gaps between two spots of a track along the straight line, or go on by prediction for up to the"
+                "Fill the gaps between two spots of a track, or go on by prediction for up to the"
                         + " maximum age, also after a track's last spot, as the paper's authors do.");
         form.row(
                 "Least track length (frames)",

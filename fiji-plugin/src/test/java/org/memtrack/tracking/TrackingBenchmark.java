@@ -19,27 +19,37 @@ final class TrackingBenchmark {
         WORLDS.put("small spots", new RandomWorld.Settings(660, 492, 300, 60, 3, 0.03, 8, 0.5, 0.1, 0.02, 0.10, 3));
     }
 
+    /** Worlds of thousands of swimmers, for the time alone. */
+    static final Map<String, RandomWorld.Settings> LARGE = new LinkedHashMap<>();
+
+    static {
+        LARGE.put("2000, apart", new RandomWorld.Settings(4000, 4000, 30, 2000, 2, 0.02, 30, 1, 0.1, 0.02, 0.1, 20));
+        LARGE.put("1000, packed", new RandomWorld.Settings(660, 492, 30, 1000, 2, 0.02, 30, 1, 0.1, 0.02, 0.1, 20));
+    }
+
     private TrackingBenchmark() {}
 
     public static void main(String[] args) {
         System.out.printf("%-12s %-10s %9s %8s %9s %8s%n", "world", "", "switches", "AssA", "gap error", "ms");
-        for (String name : WORLDS.keySet()) {
-            for (Association association : Association.values()) {
-                report(name, association);
-            }
+        WORLDS.forEach((name, world) -> report(name, world, 10));
+        LARGE.forEach((name, world) -> report(name, world, 1));
+    }
+
+    private static void report(String name, RandomWorld.Settings world, int seeds) {
+        for (Association association : Association.values()) {
+            report(name, world, association, seeds);
         }
     }
 
-    private static void report(String name, Association association) {
+    private static void report(String name, RandomWorld.Settings settingsOfWorld, Association association, int seeds) {
         SortSettings settings = new SortSettings(association, 0.05, 25, 0, Interpolation.FILL_GAPS, 1);
-        int seeds = 10;
         int switches = 0;
         double accuracy = 0;
         double squares = 0;
         int points = 0;
         long nanos = 0;
         for (int seed = 0; seed < seeds; seed++) {
-            RandomWorld world = RandomWorld.of(WORLDS.get(name), seed);
+            RandomWorld world = RandomWorld.of(settingsOfWorld, seed);
             long start = System.nanoTime();
             List<Track> tracks = new SortTracker(settings).track(world.frames());
             nanos += System.nanoTime() - start;
