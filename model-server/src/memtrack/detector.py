@@ -8,7 +8,7 @@ of any level is there. So the levels do not share out the score of one that lies
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float32, UInt8
@@ -17,13 +17,14 @@ from memtrack.boxes import square_boxes
 from memtrack.detections import Detections
 from memtrack.motion import NEUTRAL
 
-Maps = Float32[np.ndarray, "outputs y x"]
+Maps = Float32[np.ndarray, "outputs rows columns"]
 
 ALIGNMENT = 16
 MAX_CANDIDATES = 1500
 AGREEING_PX = 3.0
 
 
+@runtime_checkable
 class Engine(Protocol):
     """Runs one model's net on the features of one frame."""
 

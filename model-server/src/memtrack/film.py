@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Shaped
@@ -21,6 +21,7 @@ class Calibration:
     frame_interval_seconds: float | None = None
 
 
+@runtime_checkable
 class Film(Protocol):
     """Grey frames of one shape and type (uint8, uint16 or float32), readable in any order and more than once."""
 

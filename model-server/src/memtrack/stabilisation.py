@@ -119,7 +119,7 @@ class _Chain:
         return self._last
 
 
-def _band_pass(frame: Image, shrink: int) -> Image:
+def _band_pass(frame: Image, shrink: int) -> Float32[np.ndarray, "small_h small_w"]:
     """`frame` at 1/`shrink` of its size without noise finer than a pixel and without shading."""
     h, w = (edge // shrink for edge in frame.shape)
     small = cv2.resize(frame[: h * shrink, : w * shrink], (w, h), interpolation=cv2.INTER_AREA)

@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any, TypeAlias
 
 import numpy as np
 from jaxtyping import Bool, Float64, Int8, Int64
 from numpy.typing import ArrayLike
 
 from memtrack.film import Calibration
+
+Column: TypeAlias = ArrayLike | Sequence[Any]
+"""What a table can be made of; numpy's own ArrayLike leaves tuples out when it is checked at run time."""
 
 UNLINKED = -1
 """Track id of a detection that belongs to no track."""
@@ -80,17 +84,17 @@ class TrackTable:
 
     @staticmethod
     def of(
-        frames: ArrayLike,
-        ids: ArrayLike,
-        x: ArrayLike,
-        y: ArrayLike,
+        frames: Column,
+        ids: Column,
+        x: Column,
+        y: Column,
         *,
-        width: ArrayLike = np.nan,
-        height: ArrayLike = np.nan,
-        scores: ArrayLike = np.nan,
-        interpolated: ArrayLike = False,
-        ignored: ArrayLike = False,
-        motility: ArrayLike = Motility.UNKNOWN,
+        width: Column = np.nan,
+        height: Column = np.nan,
+        scores: Column = np.nan,
+        interpolated: Column = False,
+        ignored: Column = False,
+        motility: Column = Motility.UNKNOWN,
         calibration: Calibration = UNCALIBRATED,
     ) -> TrackTable:
         """A table of these columns (a single value stands for every row), sorted by track, then frame.
@@ -103,7 +107,7 @@ class TrackTable:
         n = len(frame_column)
         order = np.lexsort((frame_column, np.broadcast_to(id_column, (n,))))
 
-        def column(values: ArrayLike, dtype: type) -> np.ndarray:
+        def column(values: Column, dtype: type) -> np.ndarray:
             return np.broadcast_to(np.asarray(values, dtype), (n,))[order]
 
         return TrackTable(
@@ -168,7 +172,7 @@ class TrackTable:
         return spans
 
 
-def _whole(values: ArrayLike, name: str) -> np.ndarray:
+def _whole(values: Column, name: str) -> np.ndarray:
     """Values as whole numbers, far from where they would overflow."""
     column = np.asarray(values)
     fits = column.dtype != object and bool((np.abs(column.astype(np.float64)) <= _GREATEST_NUMBER).all())

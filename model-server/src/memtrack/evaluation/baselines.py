@@ -14,6 +14,7 @@ taken, so a baseline is shown at its best; nothing of ours is tuned that way.
 from __future__ import annotations
 
 import importlib
+import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -112,7 +113,7 @@ Spots = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 def _log_spots(image: Image, radius_px: float) -> Spots:
     """Maxima of the scale-normalised negative Laplacian of a Gaussian with sigma = radius / sqrt(2), sub-pixel."""
-    sigma = radius_px / np.sqrt(2)
+    sigma = radius_px / math.sqrt(2)
     smooth = cv2.GaussianBlur(image, (0, 0), sigma, borderType=cv2.BORDER_REFLECT_101)
     response = -(sigma**2) * cv2.Laplacian(smooth, cv2.CV_32F, borderType=cv2.BORDER_REFLECT_101)
     size = 2 * int(np.ceil(radius_px)) + 1

@@ -63,7 +63,7 @@ def line_chart(series: Sequence[Series], x: Axis, y: Axis) -> str:
     return _svg(parts)
 
 
-def histogram(samples: Sequence[tuple[str, Float[np.ndarray, " n"]]], name: str, bins: int = 16) -> str:
+def histogram(samples: Sequence[tuple[str, Float[np.ndarray, " _"]]], name: str, bins: int = 16) -> str:
     """Share of each sample in bins common to all, side by side, with each sample's mean as a dashed line."""
     values = np.concatenate([sample for _, sample in samples])
     edges = np.linspace(0, max(float(values.max(initial=0)) * 1.001, 1e-9), bins + 1)
