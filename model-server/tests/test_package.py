@@ -43,8 +43,13 @@ def check_wheel(wheel: Path) -> None:
         names = set(content.namelist())
     assert names >= GENERATED
     assert {"memtrack/__main__.py", "memtrack/py.typed", "memtrack/cli/serve.py", "memtrack/video/tiff.py"} <= names
+    assert any(name.endswith(".dist-info/licenses/LICENSE") for name in names)
     models = {name for name in names if name.startswith("memtrack/models/default/")}
     assert {Path(name).name for name in models} >= {"model.json", "weights.safetensors"}
+
+
+def test_the_licence_is_the_repositorys() -> None:
+    assert (HERE / "LICENSE").read_bytes() == (HERE.parent / "LICENSE").read_bytes()
 
 
 def test_a_wheel_from_a_fresh_clone_has_the_contract_and_the_models(clone: Path, tmp_path: Path) -> None:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import os
 import shutil
+import tempfile
 import threading
 from pathlib import Path
 
@@ -10,7 +12,7 @@ import pytest
 
 from memtrack.errors import ResourceLimitError
 from memtrack.film import Calibration
-from memtrack.spool import MARGIN_BYTES, FilmGeometry, SpooledFilm, SpoolFolder, megabytes
+from memtrack.spool import MARGIN_BYTES, FilmGeometry, SpooledFilm, SpoolFolder, default_folder, megabytes
 
 
 def geometry(film: np.ndarray) -> FilmGeometry:
@@ -106,6 +108,16 @@ def test_a_full_disk_is_said_in_one_sentence(tmp_path: Path) -> None:
 def test_a_folder_that_is_not_there_is_said(tmp_path: Path) -> None:
     with pytest.raises(ResourceLimitError, match=r"cannot spool the film in .*missing: No such file"):
         SpooledFilm(FilmGeometry(1, 1, 1, np.dtype("u1")), Calibration(), tmp_path / "missing")
+
+
+@pytest.mark.skipif(not os.access("/var/tmp", os.W_OK), reason="only Unix has a temporary folder that lasts")
+def test_spools_lie_on_a_disk_unless_the_user_chose_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        monkeypatch.delenv(name, raising=False)
+    assert default_folder() == Path("/var/tmp")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    assert default_folder() == tmp_path
 
 
 def test_bytes_for_people() -> None:

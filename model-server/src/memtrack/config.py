@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import ipaddress
-import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from memtrack.errors import SettingsError
 from memtrack.libraries import engine_threads
+from memtrack.spool import default_folder
 
 PROTOCOL = 1
 """Version of the contract in proto/memtrack/v1."""
@@ -52,7 +52,7 @@ class ServerConfig:
     token: str | None = None
     tls_certificate: Path | None = None
     tls_key: Path | None = None
-    spool_folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
+    spool_folder: Path = field(default_factory=default_folder)
     parent_pid: int | None = None
     grace_seconds: float = 5.0
     threads: int = field(default_factory=engine_threads)

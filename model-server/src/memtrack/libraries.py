@@ -14,9 +14,8 @@ LIBRARIES = ("numpy", "opencv-python-headless", "openvino", "torch", "grpcio", "
 
 
 def engine_threads() -> int:
-    """Threads for a net on this machine: all processors this process may use but one, which makes the features."""
-    usable = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
-    return min(max(1, usable - 1), 256)
+    """Threads for the detection on this machine: the processors this process may use, at most 8."""
+    return min(8, len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1)
 
 
 def library_versions() -> dict[str, str]:

@@ -9,6 +9,7 @@ Linux and macOS, delete-on-close on Windows. A power cut on Windows, or a networ
 from __future__ import annotations
 
 import contextlib
+import os
 import shutil
 import tempfile
 import threading
@@ -28,6 +29,16 @@ PREFIX = "memtrack-spool-"
 MARGIN_BYTES = 256 << 20
 """Disk space that is left to others."""
 _SWEEP_AGE_SECONDS = 60
+
+
+def default_folder() -> Path:
+    """Where films are spooled unless told otherwise: the user's choice of a temporary folder, or else one on a disk.
+
+    On many Linux systems /tmp is memory; /var/tmp is not.
+    """
+    chosen = any(os.environ.get(name) for name in ("TMPDIR", "TEMP", "TMP"))
+    lasting = Path("/var/tmp")
+    return lasting if not chosen and os.access(lasting, os.W_OK) else Path(tempfile.gettempdir())
 
 
 @dataclass(frozen=True, slots=True)

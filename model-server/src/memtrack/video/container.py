@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import tempfile
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,7 @@ import cv2
 
 from memtrack.errors import FilmError
 from memtrack.film import Calibration
-from memtrack.spool import FilmGeometry, SpooledFilm
+from memtrack.spool import FilmGeometry, SpooledFilm, default_folder
 from memtrack.video.source import Frame, Source, grey, notes_on
 
 
@@ -30,7 +29,7 @@ def open_container(path: Path) -> Iterator[Source]:
             raise FilmError(f"{path.name} cannot be decoded as video; save the film as TIFF")
         height, width = first.shape
         geometry = FilmGeometry(width, height, 1, first.dtype)
-        with SpooledFilm(geometry, decoder.calibration, Path(tempfile.gettempdir())) as film:
+        with SpooledFilm(geometry, decoder.calibration, default_folder()) as film:
             film.append(first.tobytes())
             for frame in decoder:
                 if frame.shape != first.shape:
