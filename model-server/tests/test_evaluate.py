@@ -77,6 +77,7 @@ def test_each_step_of_the_pipeline_is_counted() -> None:
         "length": Counts(0, 0, n),
     }
     assert found.result == found.steps["length"]
+    assert evaluate(film, Options(min_length=30)).result == Counts(f, 0, f)
     assert found.lengths[30] == Counts(f, 0, f)
     assert found.lengths[40] == Counts(0, 0, n)
 
@@ -85,20 +86,17 @@ def test_tracks_are_counted_by_motility_and_as_false() -> None:
     truth = swimmers([0.0, 0.15, 2.0, 4.0])
     half = truth.select((truth.ids == 2) & (truth.frames < FRAMES // 2))
     false = TrackTable.of(range(9), 5, [500.0] * 9, [500.0] * 9)
-    tracks = TrackTable.of(
-        np.concatenate([half.frames, false.frames]),
-        np.concatenate([half.ids, false.ids]),
-        np.concatenate([half.x, false.x]),
-        np.concatenate([half.y, false.y]),
-    )
+    lost = TrackTable.of(range(4), 7, [20.0, 24.0, 700.0, 700.0], [220.0] * 4)  # right for half of its life
+    parts = (half, false, lost)
+    tracks = TrackTable.of(*(np.concatenate([getattr(part, c) for part in parts]) for c in ("frames", "ids", "x", "y")))
     found = evaluate(FilmData("a", truth, tracks, calibration=CALIBRATED), Options())
     by_class = {m: (c.tracks, c.detected, c.points, c.found) for m, c in found.classes.items() if c.tracks}
     assert by_class == {
         Motility.NONE: (1, 0, 30, 0),
         Motility.LOW: (1, 0, 30, 0),
-        Motility.HIGH: (2, 1, 60, 15),
+        Motility.HIGH: (2, 1, 60, 17),
     }
-    assert (found.truth_tracks, found.predicted_tracks, found.false_tracks) == (4, 2, 1)
+    assert (found.truth_tracks, found.predicted_tracks, found.false_tracks) == (4, 3, 1)
 
 
 def test_speeds_are_in_micrometres_a_second() -> None:

@@ -82,6 +82,16 @@ def test_a_track_found_for_half_its_life_and_a_false_one() -> None:
     assert found == pytest.approx(expected)
 
 
+def test_a_pair_is_kept_from_frame_to_frame_but_not_over_a_gap() -> None:
+    # In frame 2 the prediction 8 is nearer than 7. With 7 there in frame 1 the pair stays: no switch, 8 is false.
+    truth = tracks("1,0,20,40 1,1,20,40 1,2,20,40 2,1,90,90")
+    through = tracks("7,0,20,40 7,1,20,40 7,2,22,40 8,2,20,40 9,1,90,90")
+    assert measures(truth, through)["MOTA"] == pytest.approx(1 - 1 / 4)
+    # Without it the nearer one is taken: one point missed, one false, one switch.
+    gap = tracks("7,0,20,40 7,2,22,40 8,2,20,40 9,1,90,90")
+    assert measures(truth, gap)["MOTA"] == pytest.approx(1 - 3 / 4)
+
+
 def test_the_sums_of_films_add_up_like_one_film_of_both() -> None:
     one, two = tracks(straight(1, 0, 9)), tracks(straight(7, 0, 4))
     apart = tracking_sums(compare(one, two, Criterion())) + tracking_sums(

@@ -296,6 +296,7 @@ def test_splits_and_merges_cut_a_track_of_trackmate(field_data: Path) -> None:
 def test_spots_and_tracks_hidden_in_trackmate_8_stay_hidden(field_data: Path) -> None:
     path = field_data / "trackmate_files" / "FakeTracks_v8.0.0-SNAPSHOT.xml"
     assert len(read_tracks(path, linked_only=False)) == 106
+    assert len(read_tracks(path)) == 74 + 10, "spots of the two tracks that pass the filter"
     assert read_tracks(path).calibration == Calibration(1.0, 1.0)
     assert read_tracks(path, Calibration(0.5, None)).calibration == Calibration(0.5, 1.0)
 
