@@ -34,7 +34,7 @@ def test_a_baseline_finds_spots_to_a_fraction_of_a_pixel(name: str, sign: str) -
     for frame in detect(name, film, 3.0, sign, 20.0):
         best = frame.detections.boxes[:2]
         found = sorted(((best[:, 0] + best[:, 2]) / 2).tolist())
-        assert found == pytest.approx(sorted(truth.x[truth.frames == frame.frame].tolist()), abs=0.5)
+        assert found == pytest.approx(sorted(truth.x[truth.frames == frame.frame].tolist()), abs=0.25)
         assert best[:, 2] - best[:, 0] == pytest.approx([20, 20])
 
 
