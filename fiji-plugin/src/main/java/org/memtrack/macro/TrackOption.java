@@ -2,8 +2,10 @@
 package org.memtrack.macro;
 
 import java.util.List;
+import java.util.Locale;
 import java.util.Optional;
 import java.util.stream.Stream;
+import org.memtrack.tracking.SortSettings;
 
 /** An option of the command "MEMTrack Track": the one table that macro, dialog, recorder and manual derive from. */
 public enum TrackOption {
@@ -71,25 +73,35 @@ public enum TrackOption {
             Kind.INTEGER,
             "",
             "shorter tracks are dropped; the preset's if left out"),
-    MAX_AGE("max_age", "Maximum age (frames)", Kind.INTEGER, "25", "frames a track may go on without a detection"),
-    MIN_HITS("min_hits", "Minimum hits", Kind.INTEGER, "0", "detections a track needs"),
+    MAX_AGE(
+            "max_age",
+            "Maximum age (frames)",
+            Kind.INTEGER,
+            number(SortSettings.DEFAULTS.maximumAge()),
+            "frames a track may go on without a detection"),
+    MIN_HITS(
+            "min_hits",
+            "Minimum hits",
+            Kind.INTEGER,
+            number(SortSettings.DEFAULTS.minimumHits()),
+            "detections a track needs"),
     IOU_GATE(
             "iou_gate",
             "IoU gate",
             Kind.NUMBER,
-            "0.05",
+            number(SortSettings.DEFAULTS.iouGate()),
             "least overlap, 0 to 1, of a detection with the place where its track is expected"),
     ASSOCIATION(
             "association",
             "Association by",
-            "motion",
-            "how detections are joined: by how swimmers move, or by overlap as in the paper",
+            word(SortSettings.DEFAULTS.association()),
+            "how detections are joined: by how swimmers move, or by overlap with the predicted box as in the paper",
             "overlap",
             "motion"),
     INTERPOLATION(
             "interpolation",
             "Interpolation",
-            "fill gaps",
+            word(SortSettings.DEFAULTS.interpolation()),
             "fill the gaps between detections, or as the paper's authors, with a tail after the last one",
             "fill gaps",
             "authors"),
@@ -162,6 +174,14 @@ public enum TrackOption {
     /** Whether the first page of the dialog shows it. */
     public boolean common() {
         return compareTo(OVERLAY) <= 0;
+    }
+
+    private static String number(double value) {
+        return value == Math.rint(value) ? Long.toString((long) value) : Double.toString(value);
+    }
+
+    private static String word(Enum<?> value) {
+        return value.name().toLowerCase(Locale.ROOT).replace('_', ' ');
     }
 
     /** The option of that name; empty when there is none. */

@@ -17,6 +17,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.regex.Pattern;
 import org.memtrack.client.DetectionClient;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
@@ -25,6 +26,9 @@ import org.memtrack.detection.DetectorException;
 final class LocalServer {
     /** The first start after an installation compiles everything, on some disks under a virus scanner. */
     private static final Duration START_LIMIT = Duration.ofSeconds(120);
+
+    /** Lines worth telling the user; the rest of what a server logs is no reason for its end. */
+    private static final Pattern TROUBLE = Pattern.compile("Error|ERROR|CRITICAL|Fatal|terminate called");
 
     private final Process process;
     private final Interpreter interpreter;
@@ -113,7 +117,9 @@ final class LocalServer {
             Thread.currentThread().interrupt();
             return Optional.empty();
         }
-        String words = errors.lines().isEmpty() ? "" : "; its last words: " + last(errors.lines());
+        String words = errors.lines().stream()
+                .filter(line -> TROUBLE.matcher(line).find())
+                .reduce("", (first, second) -> "; its last words: " + second.strip());
         return Optional.of(
                 ("The server ended while it worked (exit code %d%s): run again, and if memory is short, close"
                                 + " other programs or crop the film.")

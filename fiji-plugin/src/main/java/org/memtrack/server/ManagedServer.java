@@ -77,7 +77,7 @@ final class ManagedServer {
         }
         throw new DetectorException(
                 reasons.isEmpty()
-                        ? "No Python was found: install Python 3.10 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
+                        ? "No Python was found: install Python 3.11 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
                                 + " Install Python Environment."
                         : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
                                         .formatted(String.join("; ", reasons))

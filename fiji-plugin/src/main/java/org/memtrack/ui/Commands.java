@@ -3,6 +3,7 @@ package org.memtrack.ui;
 
 import ij.IJ;
 import ij.Macro;
+import ij.macro.Interpreter;
 import java.awt.GraphicsEnvironment;
 import java.util.concurrent.CancellationException;
 import org.memtrack.detection.DetectorException;
@@ -19,16 +20,21 @@ final class Commands {
             work.run();
         } catch (CancellationException e) {
             IJ.showStatus("MEMTrack: cancelled");
-            stopMacro();
+            if (GraphicsEnvironment.isHeadless()) {
+                IJ.log("MEMTrack: Cancelled.");
+            }
+            stopMacro("Cancelled.");
         } catch (DetectorException e) {
             LOG.log(System.Logger.Level.DEBUG, "MEMTrack failed", e);
             tell(e.getMessage());
-            stopMacro();
+            stopMacro(e.getMessage());
         } catch (RuntimeException e) {
             // ImageJ would show the stack trace and go on with the macro.
             LOG.log(System.Logger.Level.ERROR, "MEMTrack failed unexpectedly", e);
-            tell("MEMTrack failed unexpectedly (%s): please report this, with the error in the console.".formatted(e));
-            stopMacro();
+            String sentence = "MEMTrack failed unexpectedly (%s): please report this, with the error in the console."
+                    .formatted(e);
+            tell(sentence);
+            stopMacro(sentence);
         } finally {
             if (!GraphicsEnvironment.isHeadless()) {
                 IJ.showProgress(1);
@@ -40,12 +46,22 @@ final class Commands {
         if (GraphicsEnvironment.isHeadless()) {
             IJ.log("MEMTrack: " + sentence);
         } else {
-            IJ.error("MEMTrack", sentence);
+            IJ.showMessage("MEMTrack", sentence);
         }
     }
 
-    /** Ends a macro, and lets IJ.run throw in a program that called it; without effect on a command of the menu. */
-    private static void stopMacro() {
+    /**
+     * Ends the macro that called, with the result "[aborted]"; a command of the menu just ends.
+     *
+     * <p>IJ.error would show a second dialog, about the line of the macro, and without a screen Macro.abort alone lets the
+     * macro go on.
+     */
+    private static void stopMacro(String sentence) {
+        Interpreter macro = Interpreter.getInstance();
+        if (macro != null) {
+            macro.setIgnoreErrors(true);
+            IJ.error(sentence);
+        }
         Macro.abort();
         throw new RuntimeException(Macro.MACRO_CANCELED);
     }

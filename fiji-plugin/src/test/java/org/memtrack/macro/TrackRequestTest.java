@@ -35,7 +35,7 @@ class TrackRequestTest {
         TrackRequest request = of("output=out preset=water criterion=[Maximum F1] model=mine model_version=2"
                 + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false overlay=false frames=z channel=2"
                 + " first_frame=3 last_frame=40 threshold_low=0.1 threshold_medium=0.2 threshold_high=0.3 max_size=33"
-                + " nms_iou=0.6 max_age=24 min_hits=4 iou_gate=0.07 association=motion interpolation=authors"
+                + " nms_iou=0.6 max_age=24 min_hits=4 iou_gate=0.07 association=overlap interpolation=authors"
                 + " python=/p/python server=host:1");
         assertThat(request.film())
                 .isEqualTo(new FilmOptions(FrameAxis.Z, 2, 3, 40, OptionalDouble.of(0.25), OptionalDouble.of(0.0167)));
@@ -48,7 +48,7 @@ class TrackRequestTest {
         assertThat(request.settings().detection().stabilise()).isFalse();
         assertThat(request.settings().detection().cellLengthPx()).isEqualTo(8.5);
         assertThat(request.settings().tracking())
-                .isEqualTo(new SortSettings(Association.MOTION, 0.07, 24, 4, Interpolation.AUTHORS, 30));
+                .isEqualTo(new SortSettings(Association.OVERLAP, 0.07, 24, 4, Interpolation.AUTHORS, 30));
         assertThat(request.settings().server().address()).isEqualTo("host:1");
         assertThat(request.settings().server().python()).hasFileName("python");
         assertThat(request.overlay()).isFalse();

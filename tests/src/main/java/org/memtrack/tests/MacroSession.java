@@ -26,6 +26,11 @@ public final class MacroSession {
         environment.addPluginClasspath(jar.toFile());
     }
 
+    /** Loads ImageJ's own classes, for what macros cannot do. */
+    ClassLoader classes() {
+        return environment.getClassLoader();
+    }
+
     /** The shaded plug-in jar of this build. */
     public static Path pluginJar() throws IOException {
         Properties properties = new Properties();

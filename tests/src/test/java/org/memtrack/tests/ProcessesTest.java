@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.tests;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.io.File;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.TimeUnit;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+/** The launcher in a process of its own, as the README's command starts it. */
+@Timeout(240)
+class ProcessesTest {
+    @TempDir
+    static Path folder;
+
+    private static Path film;
+
+    @BeforeAll
+    static void makeAFilm() throws Exception {
+        film = folder.resolve("film.tif");
+        Python.simulate(film, 7, 150, 320, 240);
+    }
+
+    @Test
+    void withoutAnyPythonTheProcessFailsWithOneSentence() throws Exception {
+        Path log = folder.resolve("no-python.log");
+        Process process = launch(
+                log,
+                Map.of(
+                        "PATH",
+                        folder.toString(),
+                        "MEMTRACK_PYTHON",
+                        "",
+                        "MEMTRACK_HOME",
+                        folder.resolve("home").toString()),
+                HeadlessImageJ.class,
+                film.toString(),
+                folder.resolve("out").toString());
+        assertThat(process.waitFor(60, TimeUnit.SECONDS)).isTrue();
+        assertThat(process.exitValue()).isEqualTo(1);
+        assertThat(log).content(StandardCharsets.UTF_8).contains("No Python was found: install Python 3.11 or newer");
+    }
+
+    @Test
+    void aWrongFilmEndsWithTwo() throws Exception {
+        Path log = folder.resolve("no-film.log");
+        Process process = launch(
+                log, Map.of(), HeadlessImageJ.class, folder.resolve("none.tif").toString(), folder.toString());
+        assertThat(process.waitFor(60, TimeUnit.SECONDS)).isTrue();
+        assertThat(process.exitValue()).isEqualTo(2);
+        assertThat(log).content(StandardCharsets.UTF_8).contains("none.tif").doesNotContain("\tat ");
+    }
+
+    @Test
+    void theServerEndsWhenImageJIsKilled() throws Exception {
+        Path log = folder.resolve("killed.log");
+        Process imageJ = launch(
+                log,
+                Map.of(),
+                HeadlessImageJ.class,
+                film.toString(),
+                folder.resolve("orphan").toString());
+        try {
+            while (!Files.readString(log).contains("Stabilising")) {
+                assertThat(imageJ.isAlive()).as(Files.readString(log)).isTrue();
+                Thread.sleep(100);
+            }
+            List<ProcessHandle> servers = imageJ.descendants().toList();
+            assertThat(servers).isNotEmpty();
+            imageJ.destroyForcibly();
+            for (ProcessHandle server : servers) {
+                server.onExit().get(10, TimeUnit.SECONDS);
+            }
+        } finally {
+            imageJ.destroyForcibly();
+        }
+    }
+
+    @Test
+    void thePluginInstallsItsEnvironmentAndUsesIt() throws Exception {
+        Path home = folder.resolve("my home [1] ü 细菌");
+        Path log = folder.resolve("install.log");
+        Map<String, String> environment =
+                Map.of("MEMTRACK_HOME", home.toString(), "MEMTRACK_PYTHON", "", "PYTHONPATH", "");
+        Process process = launch(
+                log,
+                environment,
+                Macros.class,
+                "run(\"MEMTrack Install Python Environment\", \"python=[%s]\");".formatted(Python.path()),
+                "run(\"MEMTrack Check Installation\");");
+        assertThat(process.waitFor(200, TimeUnit.SECONDS)).isTrue();
+        assertThat(log)
+                .content(StandardCharsets.UTF_8)
+                .contains("is installed in " + home)
+                .contains("(installed by MEMTrack)")
+                .contains("Devices: openvino CPU")
+                .contains("Model: default")
+                .doesNotContain("[aborted]");
+        assertThat(process.exitValue()).isZero();
+    }
+
+    private static Process launch(Path log, Map<String, String> environment, Class<?> program, String... arguments)
+            throws Exception {
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "--add-opens=java.base/java.lang=ALL-UNNAMED",
+                "-Djava.awt.headless=true",
+                "-Dfile.encoding=UTF-8",
+                "-cp",
+                System.getProperty("java.class.path"),
+                program.getName()));
+        command.addAll(List.of(arguments));
+        ProcessBuilder builder =
+                new ProcessBuilder(command).redirectErrorStream(true).redirectOutput(new File(log.toString()));
+        environment.forEach((key, value) -> {
+            if (value.isEmpty()) {
+                builder.environment().remove(key);
+            } else {
+                builder.environment().put(key, value);
+            }
+        });
+        return builder.start();
+    }
+}
