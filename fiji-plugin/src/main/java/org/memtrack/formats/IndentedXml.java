@@ -90,13 +90,15 @@ final class IndentedXml {
 
     /** Without the characters that XML 1.0 cannot hold. */
     private static String valid(String text) {
-        return text.codePoints()
-                .map(c -> c >= 0x20 && !(c >= 0xD800 && c <= 0xDFFF) && c != 0xFFFE && c != 0xFFFF
-                                || c == '\n'
-                                || c == '\t'
-                        ? c
-                        : 0xFFFD)
-                .collect(StringBuilder::new, StringBuilder::appendCodePoint, StringBuilder::append)
-                .toString();
+        if (text.chars().allMatch(c -> c >= 0x20 && c < 0xD800)) {
+            return text;
+        }
+        StringBuilder valid = new StringBuilder();
+        text.codePoints().map(c -> isValid(c) ? c : 0xFFFD).forEach(valid::appendCodePoint);
+        return valid.toString();
+    }
+
+    private static boolean isValid(int c) {
+        return c == '\n' || c == '\t' || c >= 0x20 && !(c >= 0xD800 && c <= 0xDFFF) && c != 0xFFFE && c != 0xFFFF;
     }
 }

@@ -58,13 +58,9 @@ final class MdfWriter {
         int number = 0;
         for (TrackPoint point : track.points()) {
             double time = point.frame() + 1 + (point.interpolated() ? INTERPOLATED : 0);
-            line(
-                    writer,
-                    "Point %d %.4f %.4f 1.0 %s 1.0",
-                    ++number,
-                    point.box().centreX(),
-                    point.box().centreY(),
-                    time);
+            String x = TrackCsv.decimal(point.box().centreX());
+            String y = TrackCsv.decimal(point.box().centreY());
+            writer.write("Point " + ++number + " " + x + " " + y + " 1.0 " + time + " 1.0\r\n");
         }
     }
 

@@ -3,7 +3,6 @@ package org.memtrack.formats;
 
 import java.io.IOException;
 import java.io.OutputStream;
-import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Collections;
@@ -24,14 +23,11 @@ import org.memtrack.video.FilmInfo;
  * Writes one TrackMate file.
  *
  * <p>Positions are calibrated: pixels times pixel size, the centre of pixel (0, 0) at 0. The cost of a link is one minus
- * the intersection over union of its two boxes. Detector and tracker are TrackMate's manual ones, so that the file opens
- * without our plug-in too.
+ * the intersection over union of its two boxes.
  */
 final class TrackMateXmlWriter {
     /** Of the format; TrackMate 7 and 8 read it. */
     private static final String VERSION = "7.14.0";
-
-    private static final double DEFAULT_RADIUS_PIXELS = 15;
 
     private final TrackedFilm tracked;
     private final FilmInfo film;
@@ -88,7 +84,7 @@ final class TrackMateXmlWriter {
         writeTracks(xml);
         xml.end();
         if (film.file().isPresent()) {
-            writeSettings(xml, film.file().get());
+            TrackMateXmlSettings.write(xml, film, film.file().get());
         }
         xml.empty("GUIState", "state", "ConfigureViews");
         xml.end();
@@ -187,67 +183,6 @@ final class TrackMateXmlWriter {
                     "LINK_COST",
                     Double.toString(1 - source.point().box().iou(target.point().box())));
         }
-        xml.end();
-    }
-
-    private void writeSettings(IndentedXml xml, Path file) throws IOException {
-        Path folder = file.getParent();
-        xml.start("Settings");
-        xml.empty(
-                "ImageData",
-                "filename",
-                file.getFileName() == null ? "" : file.getFileName().toString(),
-                "folder",
-                folder == null ? "" : folder + file.getFileSystem().getSeparator(),
-                "width",
-                Integer.toString(film.width()),
-                "height",
-                Integer.toString(film.height()),
-                "nslices",
-                "1",
-                "nframes",
-                Integer.toString(film.frameCount()),
-                "pixelwidth",
-                Double.toString(pixelSize),
-                "pixelheight",
-                Double.toString(pixelSize),
-                "voxeldepth",
-                "1.0",
-                "timeinterval",
-                Double.toString(interval));
-        xml.empty(
-                "BasicSettings",
-                "xstart",
-                "0",
-                "xend",
-                Integer.toString(film.width() - 1),
-                "ystart",
-                "0",
-                "yend",
-                Integer.toString(film.height() - 1),
-                "zstart",
-                "0",
-                "zend",
-                "0",
-                "tstart",
-                "0",
-                "tend",
-                Integer.toString(film.frameCount() - 1));
-        xml.empty(
-                "DetectorSettings",
-                "DETECTOR_NAME",
-                "MANUAL_DETECTOR",
-                "RADIUS",
-                Double.toString(DEFAULT_RADIUS_PIXELS * pixelSize));
-        xml.empty("InitialSpotFilter", "feature", "QUALITY", "value", "0.0", "isabove", "true");
-        xml.empty("SpotFilterCollection");
-        xml.empty("TrackerSettings", "TRACKER_NAME", "MANUAL_TRACKER");
-        xml.empty("TrackFilterCollection");
-        xml.start("AnalyzerCollection");
-        xml.empty("SpotAnalyzers");
-        xml.empty("EdgeAnalyzers");
-        xml.empty("TrackAnalyzers");
-        xml.end();
         xml.end();
     }
 }

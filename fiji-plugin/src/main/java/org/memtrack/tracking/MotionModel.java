@@ -19,8 +19,8 @@ record MotionModel(Noise position, Noise area, Noise aspect, double persistence,
             new Noise(1, 10, 1e4, 1, 0.01), new Noise(10, 10, 1e4, 1, 0.0001), new Noise(10, 10, 0, 1, 0), 1, 0, 0);
 
     /**
-     * Standard deviation of a swimmer's velocity, pixels a frame; worse by no more than a tenth for mean speeds of 0.6 to 6
-     * (TrackingBenchmark).
+     * Standard deviation of a swimmer's velocity, pixels a frame; the best compromise of 0.6 to 5 in worlds of mean speeds
+     * from 0.6 to 6 (TrackingBenchmark).
      */
     private static final double SPEED = 4;
 

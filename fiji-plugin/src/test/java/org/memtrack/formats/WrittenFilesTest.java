@@ -69,6 +69,15 @@ class WrittenFilesTest {
     }
 
     @Test
+    void numbersHaveFourDecimalsAndTheirSign() {
+        assertThat(TrackCsv.decimal(12.34567)).isEqualTo("12.3457");
+        assertThat(TrackCsv.decimal(-0.00005001)).isEqualTo("-0.0001");
+        assertThat(TrackCsv.decimal(-0.00001)).isEqualTo("0.0000");
+        assertThat(TrackCsv.decimal(-3.05)).isEqualTo("-3.0500");
+        assertThat(TrackCsv.decimal(1e13)).isEqualTo("1.0E13");
+    }
+
+    @Test
     void numbersDoNotDependOnTheLanguageOfTheSystem() throws IOException {
         Path english = folder.resolve("english.csv");
         Path german = folder.resolve("german.csv");
