@@ -72,7 +72,7 @@ public enum TrackOption {
             "Least track length (frames)",
             Kind.INTEGER,
             "",
-            "shorter tracks are dropped; the preset's if left out"),
+            "shorter tracks are dropped; the preset's, or half a short film, if left out"),
     MAX_AGE(
             "max_age",
             "Maximum age (frames)",

@@ -57,6 +57,19 @@ public record TrackRequest(
         }
     }
 
+    /**
+     * The settings for a film of that many frames: the preset's least length of a track, unless min_length was given, is
+     * at most half the film, since few cells of a shorter film could be seen for longer.
+     */
+    public TrackingSettings settingsFor(int frameCount) {
+        SortSettings tracking = settings.tracking();
+        int longest = Math.max(1, frameCount / 2);
+        if (options.containsKey(MIN_LENGTH.key()) || tracking.minimumTrackLength() <= longest) {
+            return settings;
+        }
+        return new TrackingSettings(settings.detection(), tracking.withMinimumTrackLength(longest), settings.server());
+    }
+
     private static FilmOptions film(OptionValues values) {
         return new FilmOptions(
                 FrameAxis.values()[values.choice(FRAMES)],

@@ -55,13 +55,20 @@ public final class TrackCommand implements PlugIn {
     private static void track(ImagePlus image, TrackRequest request, Progress progress) {
         ImageFilm film = new ImageFilm(image, request.film());
         ResultFiles files = ResultFiles.in(request.output(), image.getTitle());
-        TrackingSettings settings = request.settings();
+        TrackingSettings settings = request.settingsFor(film.info().frameCount());
         settings = new TrackingSettings(
                 settings.detection().withRegion(Regions.of(image).orElse(null)),
                 settings.tracking(),
                 settings.server());
         TrackingResult result = TrackingRun.run(film, settings, progress);
         List<String> warnings = new ArrayList<>(film.warnings());
+        if (!settings.tracking().equals(request.settings().tracking())) {
+            warnings.add(
+                    "The film is short: tracks of %d frames are kept, not only those of %d; min_length sets another length."
+                            .formatted(
+                                    settings.tracking().minimumTrackLength(),
+                                    request.settings().tracking().minimumTrackLength()));
+        }
         warnings.addAll(result.warnings());
         files.write(result, film, Origin.of(film, result, request.options(), warnings));
         if (request.overlay() && !GraphicsEnvironment.isHeadless()) {

@@ -55,6 +55,17 @@ class TrackRequestTest {
     }
 
     @Test
+    void aShortFilmKeepsTracksOfHalfItsLengthUnlessTheUserSaysOtherwise() {
+        assertThat(of("output=out").settingsFor(120)).isEqualTo(TrackingSettings.DEFAULTS);
+        assertThat(of("output=out").settingsFor(119).tracking().minimumTrackLength())
+                .isEqualTo(59);
+        assertThat(of("output=out preset=water").settingsFor(1).tracking().minimumTrackLength())
+                .isEqualTo(1);
+        assertThat(of("output=out min_length=60").settingsFor(61).tracking().minimumTrackLength())
+                .isEqualTo(60);
+    }
+
+    @Test
     void theOptionsOfARequestRepeatIt() {
         TrackRequest request = of("output=[/a b/c] preset=water min_length=12 threshold_low=0.1 threshold_medium=0.2"
                 + " threshold_high=0.3 stabilise=false");
