@@ -12,6 +12,7 @@ from jaxtyping import UInt8
 
 from memtrack.detector import Engine, Maps
 from memtrack.errors import EngineUnavailableError
+from memtrack.libraries import load_openvino
 
 ENGINES = ("openvino", "torch")
 
@@ -21,7 +22,7 @@ class OpenVinoEngine:
 
     def __init__(self, path: Path, threads: int = 1) -> None:
         try:
-            import openvino
+            openvino = load_openvino()
         except ImportError as error:
             raise EngineUnavailableError(
                 "the CPU engine needs OpenVINO: install it with 'pip install openvino'"

@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.metadata
 import importlib.util
 import os
 import sys
+import threading
+from typing import Any
 
 import numpy as np
 
 LIBRARIES = ("numpy", "opencv-python-headless", "openvino", "torch", "grpcio", "protobuf", "safetensors")
+_FIRST_USE = threading.Lock()
 
 
 def engine_threads() -> int:
@@ -34,18 +38,46 @@ def working_devices() -> list[str]:
     return [*_openvino_devices(), *_torch_devices()]
 
 
-def _openvino_devices() -> list[str]:
-    if importlib.util.find_spec("openvino") is None:
-        return []
+@functools.cache
+def _openvino() -> Any:
     import openvino
-    from openvino import opset13
+    import openvino.opset13
 
+    net = _probe(openvino)
+    openvino.Core().compile_model(net, "CPU")([np.array([-1, 1], np.float32)])
+    return openvino
+
+
+def load_openvino() -> Any:
+    """The module `openvino`, after one operation on the CPU.
+
+    Its first operation builds tables while it lets go of Python's lock; a second thread that comes to them at that
+    moment holds the lock and waits for the tables for ever (6 of 40 processes that began with two threads at once hung,
+    with 2026.4.1). So the first operation is done here, by one thread, whoever asks.
+
+    Raises:
+        ImportError: it is not installed.
+    """
+    with _FIRST_USE:
+        return _openvino()
+
+
+def _probe(openvino: Any) -> Any:
+    """A net of one operation: two numbers, the negative ones set to 0."""
+    value = openvino.opset13.parameter([2], np.float32)
+    return openvino.Model([openvino.opset13.relu(value)], [value], "probe")
+
+
+def _openvino_devices() -> list[str]:
+    try:
+        openvino = load_openvino()
+    except ImportError:
+        return []
     working = []
     core = openvino.Core()
     for device in core.available_devices:
         try:
-            value = opset13.parameter([2], np.float32)
-            net = core.compile_model(openvino.Model([opset13.relu(value)], [value], "probe"), device)
+            net = core.compile_model(_probe(openvino), device)
             if np.array_equal(net([np.array([-1, 1], np.float32)])[0], [0, 1]):
                 working.append(f"openvino {device}")
         except RuntimeError:
