@@ -42,7 +42,7 @@ class StageCosts:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._costs = {Stage.RECEIVING: 3.0, Stage.STABILISING: 12.0, Stage.BACKGROUND: 12.0, Stage.DETECTING: 60.0}
+        self._costs = {Stage.RECEIVING: 4.0, Stage.STABILISING: 22.0, Stage.BACKGROUND: 1.0, Stage.DETECTING: 50.0}
 
     def current(self) -> dict[Stage, float]:
         """A copy of the costs as they are now."""
