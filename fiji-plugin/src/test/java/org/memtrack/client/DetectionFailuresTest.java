@@ -29,7 +29,7 @@ import org.memtrack.video.Film;
 import org.memtrack.video.FilmInfo;
 import org.memtrack.video.SampleType;
 
-@Timeout(30)
+@Timeout(600)
 class DetectionFailuresTest {
     private static final SyntheticFilm FILM = new SyntheticFilm(7, 5, 4, SampleType.UINT8);
 

@@ -25,7 +25,7 @@ import org.memtrack.v1.GetServerInfoResponse;
 import org.memtrack.v1.ServerServiceGrpc;
 
 /** The handshake, over a real socket. */
-@Timeout(60)
+@Timeout(600)
 class ServerInfoTest {
     @Test
     void aServerOfOurProtocolIsAcceptedWithItsToken() throws Exception {

@@ -22,7 +22,7 @@ import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
 /** Real environments of the Python on the path, with a wheel that needs no network. */
-@Timeout(120)
+@Timeout(600)
 class EnvironmentInstallerTest {
     @TempDir
     Path folder;

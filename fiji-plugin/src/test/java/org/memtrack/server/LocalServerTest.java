@@ -17,7 +17,7 @@ import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
 /** Programs that are no server, or no good one, in place of {@code python -m memtrack serve}. */
-@Timeout(60)
+@Timeout(600)
 class LocalServerTest {
     @TempDir
     Path folder;

@@ -15,7 +15,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.memtrack.tests.Session.Outcome;
 
 /** What can go wrong ends the macro with one sentence, and the next run works. */
-@Timeout(120)
+@Timeout(600)
 class FailuresTest {
     private static final String GREY = "newImage(\"film\", \"8-bit noise\", 64, 48, 1, 1, 8);\n";
 

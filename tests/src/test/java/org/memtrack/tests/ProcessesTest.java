@@ -17,7 +17,7 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 /** The launcher in a process of its own, as the README's command starts it. */
-@Timeout(240)
+@Timeout(600)
 class ProcessesTest {
     @TempDir
     static Path folder;

@@ -15,7 +15,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.tests.Session.Outcome;
 
 /** The macro command on the shaded jar, against a real server process. */
-@Timeout(120)
+@Timeout(600)
 class TrackMacroTest {
     private static final String SETTINGS = "preset=water min_length=15 pixel_size=0.25 frame_interval=0.02";
 
