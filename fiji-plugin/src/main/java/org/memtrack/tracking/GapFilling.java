@@ -11,7 +11,7 @@ import org.memtrack.tracking.Axis.Noise;
  * Fills the frames between the detections of a track: the centre where a swimmer most likely was, from its way before and
  * after the gap, the size on the straight line.
  */
-final class GapFilling {
+public final class GapFilling {
     /** Lag over which a track's speed is measured, frames; less, and errors of position look like speed. */
     private static final int SPEED_LAG = 5;
 
@@ -22,7 +22,7 @@ final class GapFilling {
      *
      * @param observed at least one, in order of frame
      */
-    static List<TrackPoint> fill(List<TrackPoint> observed) {
+    public static List<TrackPoint> fill(List<TrackPoint> observed) {
         TrackPoint first = observed.get(0);
         int length = observed.get(observed.size() - 1).frame() - first.frame() + 1;
         if (length == observed.size()) {

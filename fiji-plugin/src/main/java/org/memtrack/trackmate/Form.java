@@ -15,7 +15,8 @@ import javax.swing.SpinnerNumberModel;
 /** Lays out rows of a label and a widget, as narrow as TrackMate's wizard. */
 final class Form {
     private static final int TOOLTIP_WIDTH = 300;
-    private static final int WIZARD_WIDTH = 220;
+    private static final int WIZARD_WIDTH = 240;
+    private static final float TEXT_SIZE = 11;
 
     private final JPanel panel;
     private int row;
@@ -29,15 +30,17 @@ final class Form {
     /** A heading and, below it, what this is about. */
     void title(String heading, String text) {
         JLabel title = new JLabel(heading);
-        title.setFont(title.getFont().deriveFont(Font.BOLD, 14f));
         note(title);
-        note(new JLabel(wrapped(text, WIZARD_WIDTH)));
+        title.setFont(title.getFont().deriveFont(Font.BOLD, 14f));
+        sentence(text);
     }
 
     /** A widget with its label; both show the tooltip. */
     void row(String label, JComponent widget, String tooltip) {
         JLabel name = new JLabel(label);
         name.setLabelFor(widget);
+        name.setFont(plain(name.getFont()));
+        widget.setFont(plain(widget.getFont()));
         name.setToolTipText(wrapped(tooltip, TOOLTIP_WIDTH));
         widget.setToolTipText(wrapped(tooltip, TOOLTIP_WIDTH));
         panel.add(name, at(0, 1, 0));
@@ -47,8 +50,14 @@ final class Form {
 
     /** Something as wide as the form. */
     void note(JComponent wide) {
+        wide.setFont(plain(wide.getFont()));
         panel.add(wide, at(0, 2, 1));
         row++;
+    }
+
+    /** A sentence as wide as the form. */
+    void sentence(String text) {
+        note(new JLabel(wrapped(text, WIZARD_WIDTH)));
     }
 
     /** Pushes the rows to the top. */
@@ -56,6 +65,10 @@ final class Form {
         GridBagConstraints rest = at(0, 2, 1);
         rest.weighty = 1;
         panel.add(new JLabel(), rest);
+    }
+
+    private static Font plain(Font font) {
+        return font.deriveFont(Font.PLAIN, TEXT_SIZE);
     }
 
     static JSpinner whole(int value, int least, int greatest) {

@@ -3,7 +3,9 @@ package org.memtrack.trackmate;
 
 import fiji.plugin.trackmate.Model;
 import fiji.plugin.trackmate.Settings;
+import fiji.plugin.trackmate.TrackMateFactoryBase;
 import fiji.plugin.trackmate.detection.SpotDetectorFactory;
+import fiji.plugin.trackmate.detection.SpotDetectorFactoryBase;
 import fiji.plugin.trackmate.detection.SpotGlobalDetector;
 import fiji.plugin.trackmate.detection.SpotGlobalDetectorFactory;
 import fiji.plugin.trackmate.gui.components.ConfigurationPanel;
@@ -23,11 +25,13 @@ import org.scijava.plugin.Plugin;
 /**
  * Offers the detector of bacteria and microrobots among TrackMate's detectors; a global one, since it needs the whole film.
  *
+ * <p>For {@code TrackMateFactoryBase} see {@link MemtrackTrackerFactory}.
+ *
  * @param <T> type of the pixels
  */
 @Plugin(type = SpotDetectorFactory.class, priority = Priority.LOW)
 public final class MemtrackDetectorFactory<T extends RealType<T> & NativeType<T>>
-        implements SpotGlobalDetectorFactory<T> {
+        implements SpotGlobalDetectorFactory<T>, TrackMateFactoryBase<SpotDetectorFactoryBase<T>> {
     /** Names the detector in scripts and files. */
     public static final String KEY = "MEMTRACK_DETECTOR";
 
@@ -76,8 +80,8 @@ public final class MemtrackDetectorFactory<T extends RealType<T> & NativeType<T>
     }
 
     @Override
-    public @Nullable ImageIcon getIcon() {
-        return null;
+    public ImageIcon getIcon() {
+        return MemtrackIcon.LARGE;
     }
 
     @Override

@@ -81,7 +81,7 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
 
         film.removeInterpolated();
         TrackGraph built = TrackGraph.of(kept, film);
-        built.interpolated().forEach(spot -> spots.add(spot, SpotFilm.frameOf(spot)));
+        built.interpolated().forEach(spot -> spots.add(spot, Spots.frame(spot)));
         SpotMeasurements.complete(built.interpolated(), film.observed(), image);
         graph = built.graph();
 

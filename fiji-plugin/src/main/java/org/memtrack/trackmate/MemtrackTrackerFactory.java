@@ -3,6 +3,7 @@ package org.memtrack.trackmate;
 
 import fiji.plugin.trackmate.Model;
 import fiji.plugin.trackmate.SpotCollection;
+import fiji.plugin.trackmate.TrackMateFactoryBase;
 import fiji.plugin.trackmate.gui.components.ConfigurationPanel;
 import fiji.plugin.trackmate.tracking.SpotImageTrackerFactory;
 import fiji.plugin.trackmate.tracking.SpotTracker;
@@ -18,10 +19,13 @@ import org.scijava.plugin.Plugin;
 /**
  * Offers SORT with interpolation among TrackMate's trackers.
  *
+ * <p>Named here though it is implied, {@code TrackMateFactoryBase} keeps the class from loading in TrackMate 7, which then
+ * leaves it out; half loaded, it would break that TrackMate's start.
+ *
  * <p>It asks TrackMate for the image as well: the motion model is tuned in pixels, and spots know none.
  */
 @Plugin(type = SpotTrackerFactory.class, priority = Priority.LOW)
-public final class MemtrackTrackerFactory implements SpotImageTrackerFactory {
+public final class MemtrackTrackerFactory implements SpotImageTrackerFactory, TrackMateFactoryBase<SpotTrackerFactory> {
     /** Names the tracker in scripts and files. */
     public static final String KEY = "MEMTRACK_SORT_TRACKER";
 
@@ -74,8 +78,8 @@ public final class MemtrackTrackerFactory implements SpotImageTrackerFactory {
     }
 
     @Override
-    public @Nullable ImageIcon getIcon() {
-        return null;
+    public ImageIcon getIcon() {
+        return MemtrackIcon.LARGE;
     }
 
     @Override

@@ -63,7 +63,7 @@ final class ModelChoice {
     /** Offers these models and keeps the selection. */
     void offer(List<ModelCard> cards) {
         Item selected = selected();
-        List<Item> items = new ArrayList<>(List.of(DEFAULT));
+        List<Item> items = new ArrayList<>();
         for (ModelCard card : cards) {
             items.add(new Item(
                     card.name(),
@@ -71,6 +71,15 @@ final class ModelChoice {
                     "%s Features %s; card SHA-256 %.12s…"
                             .formatted(card.description(), card.featureSpec(), card.sha256())));
         }
+        // The server's own rule: the model of this name, else its first one.
+        items.stream()
+                .filter(item -> item.name.equals("default"))
+                .findFirst()
+                .or(() -> items.stream().findFirst())
+                .ifPresentOrElse(
+                        item -> items.add(
+                                0, new Item("", "", "%s %s: %s".formatted(item.name, item.version, item.description))),
+                        () -> items.add(DEFAULT));
         box.setModel(new DefaultComboBoxModel<>(items.toArray(Item[]::new)));
         select(selected.name, selected.version);
     }

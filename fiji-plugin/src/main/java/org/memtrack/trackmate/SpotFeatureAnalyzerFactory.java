@@ -24,12 +24,19 @@ import org.scijava.plugin.Plugin;
  * <p>Their values come from the detector and the tracker. Only one is filled in here: a spot about which nobody said
  * otherwise, for example one drawn by hand, is not interpolated.
  *
+ * <p>Of all our modules this one works in TrackMate 7, too.
+ *
  * @param <T> type of the pixels, of no matter here
  */
 @Plugin(type = SpotAnalyzerFactory.class)
 public final class SpotFeatureAnalyzerFactory<T extends RealType<T> & NativeType<T>> implements SpotAnalyzerFactory<T> {
     /** Names the analyser in scripts and files. */
     public static final String KEY = "MEMTRACK_SPOT_FEATURES";
+
+    /** Called by TrackMate when it starts; in one that is too old, the user reads so, once. */
+    public SpotFeatureAnalyzerFactory() {
+        TrackMateInstallation.tellProblemOnce();
+    }
 
     @Override
     public SpotAnalyzer<T> getAnalyzer(ImgPlus<T> film, int frame, int channel) {

@@ -55,32 +55,25 @@ final class SpotFilm {
     private void take(int frame, Iterable<Spot> all) {
         List<Detection> detections = new ArrayList<>();
         for (Spot spot : all) {
-            if (value(spot, SpotFeature.INTERPOLATED.key(), 0) == 1) {
+            if (Spots.interpolated(spot)) {
                 interpolated.add(spot);
                 continue;
             }
             spot.putFeature(SpotFeature.INTERPOLATED.key(), 0.0);
-            double time = value(spot, Spot.POSITION_T, Double.NaN);
+            double time = Spots.value(spot, Spot.POSITION_T, Double.NaN);
             if (frame > 0 && time > 0) {
                 interval = time / frame;
             }
-            if (value(spot, SpotCollection.VISIBILITY, 1) > 0) {
-                Detection detection = new Detection(boxOf(spot), value(spot, Spot.QUALITY, 0), Level.UNSPECIFIED);
+            if (Spots.value(spot, SpotCollection.VISIBILITY, 1) > 0) {
+                Detection detection = new Detection(
+                        Spots.box(spot, pixelWidth, pixelHeight),
+                        Spots.value(spot, Spot.QUALITY, 0),
+                        Level.UNSPECIFIED);
                 spotOf.put(detection, spot);
                 detections.add(detection);
             }
         }
         frames.add(new FrameDetections(frame, detections));
-    }
-
-    /** The box the detector gave, else the square around the spot's radius. */
-    private Box boxOf(Spot spot) {
-        double diameter = 2 * value(spot, Spot.RADIUS, 0);
-        return Box.around(
-                spot.getDoublePosition(0) / pixelWidth,
-                spot.getDoublePosition(1) / pixelHeight,
-                value(spot, SpotFeature.BOX_WIDTH.key(), diameter) / pixelWidth,
-                value(spot, SpotFeature.BOX_HEIGHT.key(), diameter) / pixelHeight);
     }
 
     List<FrameDetections> frames() {
@@ -102,7 +95,7 @@ final class SpotFilm {
 
     /** Takes out what an earlier run interpolated. */
     void removeInterpolated() {
-        interpolated.forEach(spot -> spots.remove(spot, frameOf(spot)));
+        interpolated.forEach(spot -> spots.remove(spot, Spots.frame(spot)));
     }
 
     /** A spot, not in the collection yet, where no detection is; its quality is 0, since nothing was seen. */
@@ -116,14 +109,5 @@ final class SpotFilm {
         spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
         spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
         return spot;
-    }
-
-    static int frameOf(Spot spot) {
-        return (int) value(spot, Spot.FRAME, 0);
-    }
-
-    private static double value(Spot spot, String feature, double otherwise) {
-        Double value = spot.getFeature(feature);
-        return value == null || !Double.isFinite(value) ? otherwise : value;
     }
 }

@@ -37,7 +37,7 @@ final class SpotMeasurements {
         }
         Spot example = observed.iterator().next();
         Map<Integer, List<Spot>> byFrame =
-                added.stream().collect(Collectors.groupingBy(SpotFilm::frameOf, TreeMap::new, Collectors.toList()));
+                added.stream().collect(Collectors.groupingBy(Spots::frame, TreeMap::new, Collectors.toList()));
         ImgPlus film = TMUtils.rawWraps(image);
         SpotAnalyzerProvider provider = new SpotAnalyzerProvider(image.getNChannels());
         for (String key : provider.getKeys()) {

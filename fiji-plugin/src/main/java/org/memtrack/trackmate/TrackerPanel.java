@@ -6,7 +6,6 @@ import ij.ImagePlus;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import javax.swing.JComboBox;
-import javax.swing.JLabel;
 import javax.swing.JSpinner;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Association;
@@ -27,7 +26,7 @@ final class TrackerPanel extends ConfigurationPanel {
         Form form = new Form(this);
         form.title(
                 MemtrackTrackerFactory.NAME,
-                "Joins spots by SORT and fills in where a track was not seen for a while.");
+                "Joins the spots of any detector and fills in where a track was not seen for a while.");
         form.row(
                 "Association",
                 association,
@@ -54,9 +53,9 @@ final class TrackerPanel extends ConfigurationPanel {
                 minimumTrackLength,
                 "Shorter tracks are dropped, interpolated frames counted; 60 in collagen and 30 in water in the paper.");
         if (image != null && image.getNFrames() > 1) {
-            form.note(new JLabel("This film has %d frames.".formatted(image.getNFrames())));
+            form.sentence("This film has %d frames.".formatted(image.getNFrames()));
         }
-        form.note(new JLabel("Interpolated spots carry the feature “Interpolated”."));
+        form.sentence("Spots put where none was found carry the feature “Interpolated”; colour or filter by it.");
         form.fill();
         setSettings(TrackerSettings.MAP.defaults());
     }

@@ -20,6 +20,7 @@ import org.memtrack.server.PythonEnvironment;
 import org.memtrack.server.ServerConnection;
 import org.memtrack.server.ServerSettings;
 import org.memtrack.server.Servers;
+import org.memtrack.trackmate.TrackMateInstallation;
 
 /** The command "MEMTrack Check Installation": versions, interpreter, devices, models and a round trip, as text to copy. */
 public final class CheckCommand implements PlugIn {
@@ -60,6 +61,7 @@ public final class CheckCommand implements PlugIn {
                 MEMTrack plug-in: %s
                 ImageJ: %s%s, Java %s, %s %s
                 Installed Python environment: %s
+                TrackMate: %s
                 """.formatted(
                         PluginVersion.get(),
                         ImageJ.VERSION,
@@ -67,7 +69,8 @@ public final class CheckCommand implements PlugIn {
                         System.getProperty("java.version"),
                         System.getProperty("os.name"),
                         System.getProperty("os.arch"),
-                        environment);
+                        environment,
+                        TrackMateInstallation.problem().orElse("can be used"));
     }
 
     private static String serverSide(ServerConnection connection) {

@@ -83,6 +83,11 @@ public final class ImageFilm implements Film {
         return options.firstFrame() - 1;
     }
 
+    /** The image the film is taken from. */
+    public ImagePlus image() {
+        return image;
+    }
+
     /** Slice of the image's stack, from 1, that holds a frame, from 0. */
     public int sliceOf(int frame) {
         int counted = options.firstFrame() + frame;

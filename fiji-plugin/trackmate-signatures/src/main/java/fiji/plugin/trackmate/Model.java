@@ -13,4 +13,8 @@ public class Model {
     public void setLogger(Logger logger) {
         throw new UnsupportedOperationException();
     }
+
+    public TrackModel getTrackModel() {
+        throw new UnsupportedOperationException();
+    }
 }

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import fiji.plugin.trackmate.action.TrackMateAction;
+import fiji.plugin.trackmate.action.TrackMateActionFactory;
+import ij.io.OpenDialog;
+import ij.plugin.BrowserLauncher;
+import java.awt.GraphicsEnvironment;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.CancellationException;
+import javax.swing.ImageIcon;
+import org.jspecify.annotations.Nullable;
+import org.memtrack.client.Progress;
+import org.memtrack.formats.TrackCsv;
+import org.memtrack.server.PythonCommand;
+import org.scijava.plugin.Plugin;
+
+/** Compares the visible tracks with a ground truth. */
+final class EvaluationAction extends ModelAction {
+    /** Offers the action to TrackMate. */
+    @Plugin(type = TrackMateActionFactory.class)
+    public static final class Factory implements TrackMateActionFactory {
+        @Override
+        public TrackMateAction create() {
+            return new EvaluationAction();
+        }
+
+        @Override
+        public String getKey() {
+            return "MEMTRACK_EVALUATION";
+        }
+
+        @Override
+        public String getName() {
+            return "Evaluate against ground truth (MEMTrack)";
+        }
+
+        @Override
+        public String getInfoText() {
+            return "<html>Compares the visible tracks with a ground truth: an MTrackJ file (.mdf), a TrackMate file (.xml) or a"
+                    + " table (.csv). Boxes of truth and track match, one to one, when they overlap by more than 0.1 (IoU), as"
+                    + " in the paper; precision, recall, F1 and tracking measures come as a page beside the truth.</html>";
+        }
+
+        @Override
+        public @Nullable ImageIcon getIcon() {
+            return MemtrackIcon.SMALL;
+        }
+    }
+
+    @Override
+    void act(ModelTracks tracks) throws IOException {
+        OpenDialog dialog = new OpenDialog("Ground truth (.mdf, .xml, .csv)");
+        String file = dialog.getPath();
+        if (file == null) {
+            throw new CancellationException();
+        }
+        say("Comparing …");
+        Path truth = Path.of(file);
+        Path out = truth.resolveSibling(truth.getFileName() + " evaluation");
+        evaluate(tracks, truth, out).forEach(this::say);
+        say("The whole comparison: " + out.resolve("evaluation.html"));
+        if (!GraphicsEnvironment.isHeadless()) {
+            BrowserLauncher.openURL(out.resolve("evaluation.html").toUri().toString());
+        }
+    }
+
+    /**
+     * Compares tracks with a truth, in Python.
+     *
+     * @param out folder for evaluation.html and evaluation.json; made if missing
+     * @return what it found, line by line
+     */
+    static List<String> evaluate(ModelTracks tracks, Path truth, Path out) throws IOException {
+        Path folder = Files.createTempDirectory("memtrack-evaluation");
+        Path table = folder.resolve("tracks.csv");
+        try {
+            TrackCsv.write(table, tracks.tracked());
+            List<String> arguments = new ArrayList<>(List.of(
+                    "evaluate",
+                    "--truth",
+                    truth.toAbsolutePath().toString(),
+                    "--tracks",
+                    table.toString(),
+                    "--out",
+                    out.toAbsolutePath().toString()));
+            tracks.info()
+                    .pixelSizeMicrometres()
+                    .ifPresent(size -> arguments.addAll(List.of("--pixel-size-um", Double.toString(size))));
+            tracks.info()
+                    .frameIntervalSeconds()
+                    .ifPresent(interval -> arguments.addAll(List.of("--frame-interval-s", Double.toString(interval))));
+            return PythonCommand.run(arguments, Progress.NONE);
+        } finally {
+            Files.deleteIfExists(table);
+            Files.deleteIfExists(folder);
+        }
+    }
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import fiji.plugin.trackmate.Settings;
+import fiji.plugin.trackmate.Spot;
+import fiji.plugin.trackmate.TrackMate;
+import fiji.plugin.trackmate.TrackModel;
+import ij.ImagePlus;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeSet;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.formats.SpotFeature;
+import org.memtrack.formats.TrackedFilm;
+import org.memtrack.tracking.GapFilling;
+import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackPoint;
+import org.memtrack.video.FilmInfo;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.FrameAxis;
+import org.memtrack.video.ImageFilm;
+
+/**
+ * The visible tracks of a TrackMate model as ours, whichever detector, tracker or hand made them.
+ *
+ * @param tracked gaps of a track are filled with interpolated points
+ * @param film the film, in the channel that was detected in
+ * @param names of the tracks, as TrackMate shows them, in the same order
+ * @param notes what the user should know, one sentence each
+ */
+record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List<String> notes) {
+
+    /**
+     * Takes the tracks.
+     *
+     * @throws DetectorException when there is no film or no visible track
+     */
+    static ModelTracks of(TrackMate trackmate) {
+        Settings settings = trackmate.getSettings();
+        ImagePlus image = settings.imp;
+        if (image == null) {
+            throw new DetectorException("These tracks have no film: open it, then load the TrackMate file again.");
+        }
+        ImageFilm film = new ImageFilm(image, options(settings));
+        TrackModel model = trackmate.getModel().getTrackModel();
+        List<Track> tracks = new ArrayList<>();
+        List<String> names = new ArrayList<>();
+        List<String> branching = new ArrayList<>();
+        for (Integer id : new TreeSet<>(model.trackIDs(true))) {
+            List<Spot> spots = model.trackSpots(id).stream()
+                    .sorted(Comparator.comparingInt(Spots::frame))
+                    .toList();
+            if (spots.stream().mapToInt(Spots::frame).distinct().count() < spots.size()) {
+                branching.add(model.name(id));
+            } else {
+                tracks.add(track(tracks.size(), spots, settings));
+                names.add(model.name(id));
+            }
+        }
+        if (tracks.isEmpty()) {
+            throw new DetectorException(
+                    branching.isEmpty()
+                            ? "There is no visible track: track first, or loosen the track filters."
+                            : "Every visible track splits or merges: cut them where they do, in TrackScheme.");
+        }
+        List<String> notes = new ArrayList<>(film.warnings());
+        if (!branching.isEmpty()) {
+            notes.add("Left out, since they split or merge: %s.".formatted(String.join(", ", branching)));
+        }
+        return new ModelTracks(TrackedFilm.of(film.info(), tracks, List.of()), film, names, notes);
+    }
+
+    private static FilmOptions options(Settings settings) {
+        Map<String, Object> detector = settings.detectorSettings;
+        Object channel = detector == null ? null : detector.get(DetectorSettings.CHANNEL);
+        return new FilmOptions(
+                FrameAxis.T,
+                channel instanceof Integer number && number <= settings.imp.getNChannels() ? Math.max(1, number) : 1,
+                1,
+                0,
+                FilmOptions.DEFAULTS.pixelSizeMicrometres(),
+                FilmOptions.DEFAULTS.frameIntervalSeconds());
+    }
+
+    private static Track track(int id, List<Spot> spots, Settings settings) {
+        List<TrackPoint> points = spots.stream()
+                .map(spot -> {
+                    Box box = Spots.box(spot, settings.dx, settings.dy);
+                    Detection detection = Spots.interpolated(spot)
+                            ? null
+                            : new Detection(
+                                    box,
+                                    Spots.value(spot, Spot.QUALITY, 0),
+                                    SpotFeature.levelOf(Spots.value(spot, SpotFeature.LEVEL.key(), 0)));
+                    return new TrackPoint(Spots.frame(spot), box, detection);
+                })
+                .toList();
+        boolean whole = spots.size() == Spots.frame(spots.get(spots.size() - 1)) - Spots.frame(spots.get(0)) + 1;
+        return new Track(id, whole ? points : GapFilling.fill(points));
+    }
+
+    /** Information about the film. */
+    FilmInfo info() {
+        return tracked.film();
+    }
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.trackmate;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.within;
+
+import fiji.plugin.trackmate.Model;
+import fiji.plugin.trackmate.Spot;
+import fiji.plugin.trackmate.TrackMate;
+import fiji.plugin.trackmate.providers.ActionProvider;
+import ij.IJ;
+import ij.ImagePlus;
+import ij.measure.ResultsTable;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.detection.DetectorException;
+import org.memtrack.formats.ImportedTracks;
+import org.memtrack.formats.TrackCsv;
+import org.memtrack.tracking.TrackPoint;
+
+class ActionsTest {
+    private static TrackMate tracked() {
+        TrackMate trackmate = TrackerInTrackMateTest.logAndSort(Films.twoSwimmers(20), 4 * Films.PIXEL_SIZE, 20, 10);
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        return trackmate;
+    }
+
+    @Test
+    void trackMateFindsTheActions() {
+        assertThat(new ActionProvider().getVisibleKeys())
+                .contains("MEMTRACK_MOTILITY", "MEMTRACK_EVALUATION", "MEMTRACK_TRAINING_DATA");
+        assertThat(new ActionProvider().getFactory("MEMTRACK_MOTILITY").create()).isInstanceOf(MotilityAction.class);
+    }
+
+    @Test
+    void tracksOfTheModelAreInPixelsWithTheirGapsMarked() {
+        ModelTracks tracks = ModelTracks.of(tracked());
+        assertThat(tracks.names()).containsExactlyInAnyOrder("Track_0", "Track_1");
+        TrackPoint point = tracks.tracked().tracks().stream()
+                .flatMap(track -> track.points().stream())
+                .filter(candidate -> candidate.frame() == 9 && candidate.interpolated())
+                .findFirst()
+                .orElseThrow();
+        assertThat(point.box().centreX()).isCloseTo(12 + 2 * 9, within(0.3));
+        assertThat(point.box().width()).isCloseTo(8, within(1e-6));
+        assertThat(tracks.tracked().tracks()).allSatisfy(track -> assertThat(track.length()).isEqualTo(20));
+    }
+
+    @Test
+    void theTableHasTheSpeedOfEachTrack() {
+        ResultsTable table = MotilityAction.table(ModelTracks.of(tracked()));
+        assertThat(table.size()).isEqualTo(2);
+        for (int row = 0; row < 2; row++) {
+            assertThat(table.getValue("Speed (px/frame)", row)).isCloseTo(2, within(0.05));
+            assertThat(table.getValue("Speed (um/s)", row))
+                    .isCloseTo(2 * Films.PIXEL_SIZE / Films.INTERVAL, within(0.03));
+        }
+        assertThat(table.getValue("Interpolated", 0) + table.getValue("Interpolated", 1)).isEqualTo(3);
+        assertThat(MotilityAction.speeds(ModelTracks.of(tracked())).getSize().width).isPositive();
+        assertThat(MotilityAction.classes(ModelTracks.of(tracked())).getSize().width).isPositive();
+    }
+
+    @Test
+    void trainingDataHoldsTheFilmTheTracksAndTheRecipeLines(@TempDir Path folder) throws Exception {
+        List<Path> files = TrainingDataAction.export(ModelTracks.of(tracked()), folder);
+        assertThat(files).extracting(file -> file.getFileName().toString())
+                .containsExactly("two_swimmers.tif", "two_swimmers.csv", "two_swimmers.toml");
+        ImagePlus film = IJ.openImage(files.get(0).toString());
+        assertThat(film.getNFrames()).isEqualTo(20);
+        assertThat(film.getCalibration().pixelWidth).isCloseTo(Films.PIXEL_SIZE, within(1e-6));
+        assertThat(film.getStack().getProcessor(5).getPixels())
+                .isEqualTo(Films.twoSwimmers(20).getStack().getProcessor(5).getPixels());
+        ImportedTracks read = TrackCsv.read(files.get(1));
+        assertThat(read.tracks()).hasSize(2);
+        assertThat(read.spots().stream().filter(spot -> spot.interpolated())).hasSize(3);
+        assertThat(Files.readString(files.get(2)))
+                .contains("[[annotated]]", "film = \"two_swimmers.tif\"", "tracks = \"two_swimmers.csv\"")
+                .contains("pixel_size_um = 0.25", "frame_interval_seconds = 0.5");
+
+        assertThatThrownBy(() -> TrainingDataAction.export(ModelTracks.of(tracked()), folder))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("is there already");
+        try (var left = Files.list(folder)) {
+            assertThat(left).hasSize(3);
+        }
+    }
+
+    @Test
+    void tracksComparedWithThemselvesAreRight(@TempDir Path folder) throws Exception {
+        ModelTracks tracks = ModelTracks.of(tracked());
+        Path truth = folder.resolve("truth with space ü.csv");
+        TrackCsv.write(truth, tracks.tracked());
+        List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"));
+        System.out.println(String.join("\n", lines));
+        assertThat(folder.resolve("out/evaluation.html")).exists();
+        assertThat(Files.readString(folder.resolve("out/evaluation.json"))).contains("\"f1\": 1.0");
+    }
+
+    @Test
+    void aMissingTruthIsOneSentence(@TempDir Path folder) {
+        ModelTracks tracks = ModelTracks.of(tracked());
+        assertThatThrownBy(() -> EvaluationAction.evaluate(tracks, folder.resolve("none.mdf"), folder.resolve("out")))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("none.mdf")
+                .hasMessageNotContaining("Traceback");
+    }
+
+    @Test
+    void aTrackThatSplitsIsLeftOutAndNamed() {
+        TrackMate trackmate = tracked();
+        Model model = trackmate.getModel();
+        Spot parent = model.getSpots().iterable(5, true).iterator().next();
+        model.beginUpdate();
+        try {
+            Spot child = model.addSpotTo(new Spot(1, 1, 0, 1, 1), 6);
+            model.addEdge(parent, child, 1);
+        } finally {
+            model.endUpdate();
+        }
+        ModelTracks tracks = ModelTracks.of(trackmate);
+        assertThat(tracks.names()).hasSize(1);
+        assertThat(tracks.notes()).anySatisfy(note -> assertThat(note).contains("split or merge: Track_"));
+    }
+
+    @Test
+    void noTracksIsOneSentence() {
+        TrackMate trackmate = tracked();
+        trackmate.getModel().clearTracks(true);
+        assertThatThrownBy(() -> ModelTracks.of(trackmate)).hasMessageContaining("no visible track");
+    }
+}
