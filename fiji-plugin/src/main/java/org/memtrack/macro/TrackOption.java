@@ -90,7 +90,7 @@ public enum TrackOption {
             "IoU gate",
             Kind.NUMBER,
             number(SortSettings.DEFAULTS.iouGate()),
-            "least overlap, 0 to 1, of a detection with the place where its track is expected"),
+            "least overlap, 0 to 1, of a detection with the place where its track is expected; for association=overlap"),
     ASSOCIATION(
             "association",
             "Association by",

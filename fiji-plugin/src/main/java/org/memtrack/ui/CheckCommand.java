@@ -10,6 +10,7 @@ import java.awt.GraphicsEnvironment;
 import java.nio.file.Path;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.stream.Collectors;
 import org.memtrack.client.ModelCard;
 import org.memtrack.client.PluginVersion;
 import org.memtrack.client.ServerInfo;
@@ -46,6 +47,7 @@ public final class CheckCommand implements PlugIn {
         try (ServerConnection connection = Servers.acquire(settings, new StatusProgress())) {
             report.append(serverSide(connection));
             show(report.toString());
+            IJ.showStatus("MEMTrack: the server works");
         } catch (DetectorException e) {
             report.append("Server: ").append(e.getMessage()).append('\n');
             show(report.toString());
@@ -90,12 +92,12 @@ public final class CheckCommand implements PlugIn {
                         milliseconds,
                         info.pythonVersion(),
                         connection.origin(),
-                        new TreeMap<>(info.libraries()),
+                        libraries(info),
                         String.join(", ", info.devices()),
                         info.maxFilmBytes() / 1e9,
                         info.spoolFreeBytes() / 1e9));
         for (ModelCard model : connection.client().models()) {
-            report.append("Model: %s %s, SHA-256 %s. %s%n"
+            report.append("Model: %s %s, SHA-256 %s%n    %s%n"
                     .formatted(model.name(), model.version(), model.sha256(), model.description()));
         }
         if (!info.version().equals(PluginVersion.get())) {
@@ -103,6 +105,13 @@ public final class CheckCommand implements PlugIn {
                     "The server is of another version than the plug-in: run \"MEMTrack Install Python Environment\".\n");
         }
         return report.toString();
+    }
+
+    private static String libraries(ServerInfo info) {
+        return new TreeMap<>(info.libraries())
+                .entrySet().stream()
+                        .map(library -> library.getKey() + " " + library.getValue())
+                        .collect(Collectors.joining(", "));
     }
 
     private static void show(String report) {

@@ -9,13 +9,18 @@ import java.awt.Checkbox;
 import java.awt.Choice;
 import java.awt.Color;
 import java.awt.TextField;
+import java.math.BigDecimal;
+import java.math.MathContext;
 import java.util.ArrayList;
 import java.util.EnumMap;
+import java.util.EnumSet;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.OptionalDouble;
+import java.util.Set;
 import java.util.Vector;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.TrackOption;
@@ -26,14 +31,30 @@ import org.memtrack.video.ImageFilm;
 final class TrackDialog {
     private static final String PREFERENCE = "memtrack.";
 
+    /** Told by each film itself; the last film's would be wrong for the next. */
+    private static final Set<TrackOption> OF_THE_FILM = EnumSet.of(
+            TrackOption.PIXEL_SIZE,
+            TrackOption.FRAME_INTERVAL,
+            TrackOption.CELL_LENGTH,
+            TrackOption.FRAMES,
+            TrackOption.CHANNEL,
+            TrackOption.FIRST_FRAME,
+            TrackOption.LAST_FRAME);
+
     private TrackDialog() {}
 
     /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
     static Optional<TrackRequest> ask(ImagePlus image) {
         Map<TrackOption, String> values = new EnumMap<>(TrackOption.class);
         for (TrackOption option : TrackOption.values()) {
-            values.put(option, Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
+            values.put(
+                    option,
+                    OF_THE_FILM.contains(option)
+                            ? option.defaultValue()
+                            : Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
         }
+        values.put(TrackOption.PIXEL_SIZE, text(ImageFilm.pixelSizeMicrometres(image)));
+        values.put(TrackOption.FRAME_INTERVAL, text(ImageFilm.frameIntervalSeconds(image)));
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
@@ -45,7 +66,11 @@ final class TrackDialog {
             }
             try {
                 TrackRequest request = TrackRequest.of(keyed(values));
-                values.forEach((option, value) -> Prefs.set(PREFERENCE + option.key(), value));
+                values.forEach((option, value) -> {
+                    if (!OF_THE_FILM.contains(option)) {
+                        Prefs.set(PREFERENCE + option.key(), value);
+                    }
+                });
                 return Optional.of(request);
             } catch (DetectorException e) {
                 complaint = e.getMessage();
@@ -76,6 +101,9 @@ final class TrackDialog {
             dialog.addMessage(wrapped(complaint), null, Color.RED);
         }
         List<TrackOption> shown = new ArrayList<>();
+        if (!common) {
+            dialog.addMessage("An empty field leaves the choice to the model or the medium.");
+        }
         for (TrackOption option : TrackOption.values()) {
             if (option.common() == common) {
                 add(dialog, option, values.getOrDefault(option, ""));
@@ -137,6 +165,15 @@ final class TrackDialog {
             }
         });
         return keyed;
+    }
+
+    private static String text(OptionalDouble value) {
+        return value.isEmpty()
+                ? ""
+                : BigDecimal.valueOf(value.getAsDouble())
+                        .round(new MathContext(6))
+                        .stripTrailingZeros()
+                        .toPlainString();
     }
 
     private static String wrapped(String sentence) {

@@ -13,6 +13,7 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
 import java.util.Optional;
+import java.util.OptionalDouble;
 import org.memtrack.detection.DetectorException;
 
 /** A film that ImageJ has open, in memory or as a virtual stack. */
@@ -61,6 +62,16 @@ public final class ImageFilm implements Film {
     /** Whether an image that has frames has them on Z, as ImageJ opens AVI files and folders of pictures. */
     public static boolean framesLieOnZ(ImagePlus image) {
         return image.getNFrames() == 1 && image.getNSlices() > 1;
+    }
+
+    /** Edge of a pixel as the image says, micrometres; empty when it is not calibrated. */
+    public static OptionalDouble pixelSizeMicrometres(ImagePlus image) {
+        return Units.pixelSizeMicrometres(image.getCalibration());
+    }
+
+    /** Time between two frames as the image says, seconds; empty when it does not. */
+    public static OptionalDouble frameIntervalSeconds(ImagePlus image) {
+        return Units.frameIntervalSeconds(image.getCalibration());
     }
 
     /** What the user should know about this film, one sentence each. */

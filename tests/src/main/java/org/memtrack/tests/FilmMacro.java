@@ -43,12 +43,9 @@ final class FilmMacro {
             throw new IllegalArgumentException("There is no film %s: check the path.".formatted(film));
         }
         String name = film.toString().toLowerCase(Locale.ROOT);
-        if (name.endsWith(".avi")) {
-            // Colour is what cameras write, grey what was filmed.
-            return "run(\"AVI...\", \"open=[\" + getArgument() + \"] convert\");\n";
-        }
-        if (name.matches(".*\\.(tiff?|zip)")) {
-            return "open(getArgument());\n";
+        if (name.matches(".*\\.(tiff?|zip|avi)")) {
+            // Many cameras write grey films as colour ones.
+            return "open(getArgument());\nif (bitDepth() == 24) run(\"8-bit\");\n";
         }
         throw new IllegalArgumentException(
                 "%s is no TIFF, AVI or folder of pictures: save it as one of these.".formatted(film));

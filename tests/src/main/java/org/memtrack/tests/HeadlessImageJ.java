@@ -2,11 +2,13 @@
 package org.memtrack.tests;
 
 import java.io.IOException;
+import java.nio.file.DirectoryStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
 import java.util.List;
-import java.util.stream.Stream;
+import java.util.Map;
+import java.util.TreeMap;
 
 /**
  * Tracks one film in headless ImageJ with the plug-in's jar, as a macro does, and says where the results are.
@@ -40,9 +42,12 @@ public final class HeadlessImageJ {
         Path film = Path.of(arguments[0]).toAbsolutePath().normalize();
         Path output = Path.of(arguments[1]).toAbsolutePath().normalize();
         String options = "output=[%s] %s".formatted(output, arguments.length == 3 ? arguments[2] : "");
-        FileTime start = FileTime.fromMillis(System.currentTimeMillis() - 2000);
+        Map<Path, FileTime> before = results(output);
         String result = new MacroSession().run(FilmMacro.of(film, options), film.toString());
-        List<Path> written = written(output, start);
+        List<Path> written = results(output).entrySet().stream()
+                .filter(file -> !file.getValue().equals(before.get(file.getKey())))
+                .map(Map.Entry::getKey)
+                .toList();
         if (result.equals("[aborted]") || written.isEmpty()) {
             System.err.println("The film was not tracked; the reason is told above.");
             return 1;
@@ -58,15 +63,15 @@ public final class HeadlessImageJ {
         return 0;
     }
 
-    private static List<Path> written(Path output, FileTime since) throws IOException {
-        if (!Files.isDirectory(output)) {
-            return List.of();
+    private static Map<Path, FileTime> results(Path output) throws IOException {
+        Map<Path, FileTime> found = new TreeMap<>();
+        if (Files.isDirectory(output)) {
+            try (DirectoryStream<Path> files = Files.newDirectoryStream(output, "*.{xml,csv,mdf,json,png}")) {
+                for (Path file : files) {
+                    found.put(file, Files.getLastModifiedTime(file));
+                }
+            }
         }
-        try (Stream<Path> files = Files.list(output)) {
-            return files.filter(file -> file.toString().matches(".*\\.(xml|csv|mdf|json|png)"))
-                    .filter(file -> file.toFile().lastModified() >= since.toMillis())
-                    .sorted()
-                    .toList();
-        }
+        return found;
     }
 }
