@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float32, UInt8
+from jaxtyping import Float32, Float64, UInt8
 
 from memtrack.boxes import square_boxes
 from memtrack.detections import Detections
@@ -69,18 +69,11 @@ class Decoder:
         return Detections(boxes, chosen.astype(np.float32), levels.astype(np.int8))
 
 
-def _consensus(centres: np.ndarray, scores: np.ndarray) -> np.ndarray:
-    out = np.empty((len(centres), 2))
-    order = np.argsort(centres[:, 0])
-    sorted_x = centres[order, 0]
-    first = np.searchsorted(sorted_x, centres[:, 0] - AGREEING_PX)
-    last = np.searchsorted(sorted_x, centres[:, 0] + AGREEING_PX, side="right")
-    for i, centre in enumerate(centres):
-        near = order[first[i] : last[i]]
-        offsets = centres[near] - centre
-        weights = scores[near] * (np.square(offsets).sum(axis=1) <= AGREEING_PX**2)
-        out[i] = centre + weights @ offsets / weights.sum()
-    return out
+def _consensus(centres: Float64[np.ndarray, "n 2"], scores: Float32[np.ndarray, " n"]) -> Float64[np.ndarray, "n 2"]:
+    offsets = centres[None] - centres[:, None]
+    weights = scores * (np.square(offsets).sum(axis=2) <= AGREEING_PX**2)
+    means: np.ndarray = weights @ centres / weights.sum(axis=1, keepdims=True)
+    return means
 
 
 def padded(features: UInt8[np.ndarray, "channel height width"]) -> UInt8[np.ndarray, "channel y x"]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,10 @@ ENGINES = ("openvino", "torch")
 
 
 class OpenVinoEngine:
-    """A net in OpenVINO's or ONNX form, compiled for the size of the first frame it sees."""
+    """A net in OpenVINO's or ONNX form, compiled for the size of the first frame it sees.
+
+    `run` may be called from `threads` threads at a time, each of which works on a frame of its own.
+    """
 
     def __init__(self, path: Path, threads: int = 1) -> None:
         try:
@@ -29,19 +33,27 @@ class OpenVinoEngine:
             ) from error
         self._core = openvino.Core()
         self._path, self._threads = path, threads
+        self._lock = threading.Lock()
         self._shape: tuple[int, ...] = ()
-        self._request: Any = None
+        self._compiled: Any = None
+        self._local = threading.local()
 
     def run(self, features: UInt8[np.ndarray, "channel y x"]) -> Maps:
         """See `Engine.run`."""
-        if features.shape != self._shape:
-            net = self._core.read_model(self._path)
-            net.reshape([1, *features.shape])
-            hints = {"INFERENCE_NUM_THREADS": self._threads, "PERFORMANCE_HINT": "LATENCY"}
-            self._request = self._core.compile_model(net, "CPU", hints).create_infer_request()
-            self._shape = features.shape
-        out = self._request.infer([features[None]])[0]
-        return np.asarray(out[0], np.float32)
+        request = self._request(features.shape)
+        return np.array(request.infer([features[None]], share_inputs=True)[0][0], np.float32)
+
+    def _request(self, shape: tuple[int, ...]) -> Any:
+        with self._lock:
+            if shape != self._shape:
+                net = self._core.read_model(self._path)
+                net.reshape([1, *shape])
+                hints = {"INFERENCE_NUM_THREADS": self._threads, "NUM_STREAMS": self._threads}
+                self._compiled, self._shape = self._core.compile_model(net, "CPU", hints), shape
+            compiled = self._compiled
+        if getattr(self._local, "compiled", None) is not compiled:
+            self._local.compiled, self._local.request = compiled, compiled.create_infer_request()
+        return self._local.request
 
 
 class TorchEngine:

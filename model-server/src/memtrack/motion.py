@@ -58,7 +58,7 @@ _NEIGHBOUR = re.compile(r"deviation([+-]\d{1,2})?")
 
 
 class FilmFeatures:
-    """Features of any frame of one film, computed when asked for; keeps the deviations of a few frames.
+    """Features of any frame of one film, computed when asked for; keeps those of a few frames.
 
     A film read forwards from its first frame computes each deviation once.
     """
@@ -73,7 +73,7 @@ class FilmFeatures:
         self.noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
         self.texture = float(np.hypot(texture, self.noise))
         self._spread = _signed(background.spread / np.float32(self.noise) - 1)
-        self._deviations: dict[int, Channel] = {}
+        self._known: dict[int, tuple[Channel, Channel]] = {}
         offsets = [_offset(c) for c in spec.channels if _NEIGHBOUR.fullmatch(c)]
         self._reach = max([abs(o) for o in offsets], default=0)
 
@@ -88,8 +88,8 @@ class FilmFeatures:
             return aligned[0]
 
         channels = [self._channel(name, index, current) for name in self.spec.channels]
-        for old in [k for k in self._deviations if abs(k - index) > self._reach]:
-            del self._deviations[old]
+        for old in [k for k in self._known if abs(k - index) > self._reach]:
+            del self._known[old]
         return np.stack(channels)
 
     def _channel(self, name: str, index: int, current: Callable[[], Image]) -> Channel:
@@ -103,21 +103,24 @@ class FilmFeatures:
     def _place(self, index: int) -> tuple[int, int]:
         return split_drift(self.motion.drift[index])[0]
 
-    def _deviation_values(self, index: int) -> Image:
-        values = aligned_frame(self.film, self.motion, index) - self.background.median[self._window(index)]
+    def _deviation_values(self, index: int, aligned: Image) -> Image:
+        values: Image = aligned - self.background.median[self._window(index)]
         values *= np.float32(1 / self.noise)
         # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
-        unshaded: Image = values - _smooth(np.clip(values, -3, 3))
-        return unshaded
+        values -= _smooth(np.clip(values, -3, 3))
+        return values
 
-    def _deviation(self, index: int) -> Channel:
-        if index not in self._deviations:
-            self._deviations[index] = _signed(self._deviation_values(index))
-        return self._deviations[index]
+    def _grey_and_deviation(self, index: int) -> tuple[Channel, Channel]:
+        """Both at once, since the frame is read and aligned long before it is the current one."""
+        if index not in self._known:
+            aligned = aligned_frame(self.film, self.motion, index)
+            grey = _signed((aligned - self._shading[self._window(index)]) * np.float32(2 / self.texture))
+            self._known[index] = grey, _signed(self._deviation_values(index, aligned))
+        return self._known[index]
 
     def _neighbour(self, index: int, offset: int) -> Channel:
         other = min(max(index + offset, 0), self.film.frame_count - 1)
-        return self._at_place_of(index, other, self._deviation(other), NEUTRAL)
+        return self._at_place_of(index, other, self._grey_and_deviation(other)[1], NEUTRAL)
 
     def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:
         """`image` of frame `other` where the scene stands in frame `index`."""
@@ -130,13 +133,14 @@ class FilmFeatures:
         return moved
 
     def _grey(self, index: int, current: Callable[[], Image]) -> Channel:
-        return _signed((current() - self._shading[self._window(index)]) * np.float32(2 / self.texture))
+        return self._grey_and_deviation(index)[0]
 
     def _spread_channel(self, index: int, current: Callable[[], Image]) -> Channel:
-        return self._spread[self._window(index)]
+        spread: Channel = self._spread[self._window(index)]
+        return spread
 
     def _abs_deviation(self, index: int, current: Callable[[], Image]) -> Channel:
-        values = np.abs(self._deviation_values(index))
+        values = np.abs(self._deviation_values(index, current()))
         return _as_bytes(255 * values / (values + np.float32(KNEE)))
 
     def _flow_with(self, flow: Callable[[Image, Image], Image], index: int, current: Callable[[], Image]) -> Image:
@@ -175,8 +179,10 @@ def _signed(values: Image) -> Channel:
     """Signed values squeezed into 8 bits around `NEUTRAL`, finely near zero and never saturated."""
     size = np.abs(values)
     size += np.float32(KNEE)
-    squeezed = np.asarray(cv2.divide(values, size, scale=127.0))
-    return _as_bytes(squeezed + np.float32(NEUTRAL + 0.5))
+    np.divide(values, size, out=size)
+    size *= np.float32(127)
+    size += np.float32(NEUTRAL + 0.5)
+    return _as_bytes(size)
 
 
 def _as_bytes(values: np.ndarray) -> Channel:

@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from jaxtyping import Bool
@@ -22,6 +25,9 @@ from memtrack.progress import Report, Stage
 from memtrack.pruning import prune
 from memtrack.resampling import ScaledFilm
 from memtrack.stabilisation import measure_motion
+
+T = TypeVar("T")
+R = TypeVar("R")
 
 CELL_LENGTH_UM = 2.0
 """Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
@@ -40,7 +46,7 @@ class DetectionSettings:
     region: where detections are wanted, of the film's height and width; None is everywhere.
     cell_length_px: length of a bacterium in pixels of this film. None: from the pixel size and 2 um, or, without a
         pixel size, such as the model knows.
-    engine, threads: see `Model.engine`.
+    engine, threads: see `Model.engine`; as many frames are worked on at a time, and the result is the same.
     """
 
     model: str = "default"
@@ -53,7 +59,7 @@ class DetectionSettings:
     region: Bool[np.ndarray, "height width"] | None = None
     cell_length_px: float | None = None
     engine: str = "auto"
-    threads: int = 1
+    threads: int = 2
 
     def __post_init__(self) -> None:
         if self.criterion not in CRITERIA:
@@ -92,17 +98,13 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=_at(report, Stage.STABILISING))
     background = temporal_background(scaled, motion, report=_at(report, Stage.BACKGROUND))
     features = FilmFeatures(scaled, motion, background, model.card.features)
-    with ThreadPoolExecutor(1, "features") as ahead:
-        upcoming = ahead.submit(features.frame, 0)
-        for i in range(film.frame_count):
-            report(Stage.DETECTING, i, film.frame_count)
-            current = upcoming.result()
-            if i + 1 < film.frame_count:
-                upcoming = ahead.submit(features.frame, i + 1)
-            candidates = detect(engine, model.card.decoder, current)
-            candidates = to_film(candidates, split_drift(motion.drift[i])[1], scale)
+    with ThreadPoolExecutor(settings.threads, "detector") as pool:
+        frames = (features.frame(i) for i in range(film.frame_count))
+        found = ahead(pool, partial(detect, engine, model.card.decoder), frames, settings.threads + 1)
+        for i, on_grid in enumerate(found):
+            report(Stage.DETECTING, i + 1, film.frame_count)
             kept, counts = prune(
-                candidates,
+                to_film(on_grid, split_drift(motion.drift[i])[1], scale),
                 thresholds=thresholds,
                 max_size_px=settings.max_size_px / scale,
                 nms_iou=settings.nms_iou,
@@ -110,7 +112,21 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
             )
             drift_x, drift_y = motion.drift[i] / scale
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y))
-    report(Stage.DETECTING, film.frame_count, film.frame_count)
+
+
+def ahead(pool: Executor, work: Callable[[T], R], items: Iterator[T], depth: int) -> Iterator[R]:
+    """`map(work, items)` in the pool's threads, up to `depth` items ahead of the caller, which makes the items."""
+    waiting: deque[Future[R]] = deque()
+    try:
+        for item in items:
+            waiting.append(pool.submit(work, item))
+            if len(waiting) >= depth:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        for future in waiting:
+            future.cancel()
 
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:

@@ -2,7 +2,7 @@
 """The nets: RetinaNet with one anchor a place, compact for CPUs or on torchvision's ResNet-50-FPN. Needs torch.
 
 Every net maps uint8 features [n, channel, y, x], y and x multiples of `ALIGNMENT`, to float maps
-[n, 1 + levels + 2, y / stride, x / stride]: the logit of "a bacterium of any level", one logit a level, and the
+[n, 1 + levels + 2, y / STRIDE, x / STRIDE]: the logit of "a bacterium of any level", one logit a level, and the
 centre's distance from the place's own centre in units of the stride (x, y).
 """
 
@@ -17,6 +17,7 @@ from torch import Tensor, nn
 from memtrack.errors import SettingsError
 
 ALIGNMENT = 16
+STRIDE = 4
 LEVELS = 3
 OUTPUTS = 1 + LEVELS + 2
 RARE = -4.6
@@ -46,8 +47,6 @@ class CompactRetinaNet(nn.Module):
         widths: channels at the strides 2, 4, 8 and 16.
         depths: residual blocks at the strides 4, 8 and 16.
     """
-
-    stride = 4
 
     def __init__(self, channels: int, widths: tuple[int, ...], depths: tuple[int, ...]) -> None:
         super().__init__()
@@ -86,8 +85,6 @@ def _double(x: Tensor) -> Tensor:
 
 class ResNet50Fpn(nn.Module):
     """torchvision's ResNet-50 with a feature pyramid, head on its stride-4 level: the paper's kind of net, for GPUs."""
-
-    stride = 4
 
     def __init__(self, channels: int) -> None:
         super().__init__()

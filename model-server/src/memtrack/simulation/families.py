@@ -47,7 +47,9 @@ def collagen(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     gaits = [Gait.SWIMMING, Gait.HOPPING, Gait.TRAPPED, Gait.BROWNIAN, Gait.STUCK]
     count = _count(recipe, np.exp(rng.uniform(np.log(6), np.log(60))), rng)
     weights = rng.dirichlet([2, 4, 2, 1.5, 0.7])
-    return _populate(recipe, count, gaits, weights, _kind(rng), float(rng.uniform(25, 120)), rng)
+    return _populate(
+        recipe, count, gaits, weights, _kind(rng), float(np.exp(rng.uniform(np.log(16), np.log(120)))), rng
+    )
 
 
 def water(recipe: Recipe, rng: np.random.Generator) -> Recipe:
@@ -64,10 +66,12 @@ def water(recipe: Recipe, rng: np.random.Generator) -> Recipe:
         depth_spread=float(rng.uniform(0.2, 1.3)),
         dust=float(rng.choice([0.0, rng.uniform(2, 8)])),
     )
+    if rng.random() < 0.12:  # dark field or fluorescence
+        recipe = replace(recipe, level=float(rng.uniform(8, 40)), texture=float(rng.uniform(0.3, 2)), jpeg=0)
     gaits = [Gait.SWIMMING, Gait.BROWNIAN, Gait.STUCK, Gait.TRAPPED]
     count = _count(recipe, np.exp(rng.uniform(np.log(8), np.log(90))), rng)
     weights = rng.dirichlet([8, 1.5, 0.7, 0.7])
-    return _populate(recipe, count, gaits, weights, _kind(rng), float(rng.uniform(12, 80)), rng)
+    return _populate(recipe, count, gaits, weights, _kind(rng), float(rng.uniform(10, 80)), rng)
 
 
 def empty(recipe: Recipe, rng: np.random.Generator) -> Recipe:
@@ -106,7 +110,7 @@ def _count(recipe: Recipe, per_reference_field: float, rng: np.random.Generator)
 
 
 def _stage(recipe: Recipe, rng: np.random.Generator) -> Recipe:
-    """Drift, jitter, flicker, wobble and restlessness; each is absent in about half of the films."""
+    """Drift, jitter, flicker, wobble, restlessness and clutter; each is absent in about half of the films."""
 
     def sometimes(share: float, low: float, high: float) -> float:
         return float(np.exp(rng.uniform(np.log(low), np.log(high)))) if rng.random() < share else 0.0
@@ -116,12 +120,16 @@ def _stage(recipe: Recipe, rng: np.random.Generator) -> Recipe:
         recipe,
         drift_per_frame=(float(speed * np.cos(direction)), float(speed * np.sin(direction))),
         jitter=sometimes(0.4, 0.02, 0.4),
+        jump=sometimes(0.05, 1, 20),
         flicker=sometimes(0.4, 0.002, 0.03),
-        wobble=sometimes(0.3, 0.05, 0.6),
-        restless=sometimes(0.3, 0.02, 0.4),
+        lamp_drift=sometimes(0.3, 0.005, 0.1),
+        wobble=sometimes(0.4, 0.05, 0.7),
+        restless=sometimes(0.45, 0.02, 0.5),
         shading=float(rng.uniform(0, 0.6)),
         clutter=int(rng.poisson(3)) if rng.random() < 0.5 else 0,
-        clutter_contrast=float(rng.uniform(2, 15)),
+        clutter_contrast=float(rng.uniform(2, 20)),
+        clutter_flow=sometimes(0.4, 0.02, 1.0),
+        shutter=sometimes(0.6, 0.3, 1.0),
     )
 
 
@@ -140,7 +148,7 @@ def _camera(recipe: Recipe, rng: np.random.Generator) -> Recipe:
 
 
 def _kind(rng: np.random.Generator) -> str:
-    return str(rng.choice(["bright", "dark", "both", "both"]))
+    return str(rng.choice(["bright", "dark", "both"]))
 
 
 def _populate(
@@ -156,9 +164,12 @@ def _populate(
     s = recipe.scale
     halo = float(rng.choice([0.0, rng.uniform(0.05, 0.35)]))
     flip = float(rng.choice([0.0, 0.5, 1.0]))
-    relief = float(rng.choice([0.0, 0.0, rng.uniform(0.2, 1.2)]))
+    # Slight, or so strong that the dark side shows: in between a core only seems to lie beside its centre.
+    relief = float(rng.choice([0.0, 0.0, 0.0, rng.uniform(0.05, 0.25), rng.uniform(1.5, 4)]))
     angle, ring = float(rng.uniform(0, 2 * np.pi)), float(rng.uniform(7, 13))
     length, width = float(rng.uniform(6, 11)), float(rng.uniform(3, 5))
+    if rng.random() < 0.1:  # cocci, beads
+        length = width = float(rng.uniform(3, 7))
     spread = float(rng.uniform(0.1, 0.7))
 
     def look() -> Look:

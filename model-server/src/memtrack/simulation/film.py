@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
@@ -27,10 +27,12 @@ class Recipe:
     """All that describes a simulated film but its random numbers; lengths in pixels, grey levels of an 8-bit camera.
 
     looks: one a bacterium, in the order of `gaits`. texture: standard deviation of the scene. shading: relative height
-    of the uneven light. flicker: relative standard deviation of the lamp. drift_per_frame: mean (x, y). jitter: of the
-    stage, per axis and frame. wobble: reach of fibre movement. restless: slow change of the scene, as a share of it.
-    clutter: moving blurred blobs and their contrast in grey levels. read_noise, shot_noise: sd in grey levels, the
-    second at full scale. decoys: static rods that look like bacteria. jpeg: quality, 0 for none.
+    of the uneven light. flicker: relative standard deviation of the lamp, lamp_drift: its slow change over the film.
+    drift_per_frame: mean (x, y). jitter: of the stage, per axis and frame. jump: one sudden move of the stage. wobble:
+    reach of fibre movement. restless: slow change of the scene, as a share of it. clutter: moving blurred blobs, their
+    contrast in grey levels and their flow in pixels a frame. shutter: share of a frame's time the camera sees.
+    read_noise, shot_noise: sd in grey levels, the second at full scale. decoys: static rods that look like bacteria.
+    jpeg: quality, 0 for none.
     """
 
     width: int = 320
@@ -45,12 +47,16 @@ class Recipe:
     texture: float = 18.0
     shading: float = 0.2
     flicker: float = 0.0
+    lamp_drift: float = 0.0
     drift_per_frame: tuple[float, float] = (0.0, 0.0)
     jitter: float = 0.0
+    jump: float = 0.0
     wobble: float = 0.0
     restless: float = 0.0
     clutter: int = 0
     clutter_contrast: float = 5.0
+    clutter_flow: float = 0.0
+    shutter: float = 0.0
     read_noise: float = 3.0
     shot_noise: float = 3.0
     noise_blur: float = 0.0
@@ -80,6 +86,9 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
     n = recipe.frames
     drift = np.cumsum(np.tile(recipe.drift_per_frame, (n, 1)) + rng.normal(0, 0.3 * recipe.jitter, (n, 2)), axis=0)
     drift = drift + rng.normal(0, recipe.jitter, (n, 2))
+    if recipe.jump and n > 2:
+        angle = rng.uniform(0, 2 * np.pi)
+        drift[rng.integers(1, n) :] += recipe.jump * np.array([np.cos(angle), np.sin(angle)])
     drift -= drift[0]
     world = World(
         recipe.width,
@@ -94,6 +103,7 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
     layers = _bacteria(recipe, paths, drift)
     scene = _Scene(recipe, drift, rng)
     lamp = 1 + recipe.flicker * rng.standard_normal(n)
+    lamp *= 1 + recipe.lamp_drift * np.sin(np.linspace(0, rng.uniform(1, 6), n) + rng.uniform(0, 6))
     frames = np.stack([_expose(recipe, scene.frame(i) + layers[i], lamp[i], rng) for i in range(n)])
     calibration = Calibration(recipe.pixel_size_um, recipe.frame_interval_seconds)
     truth = _truth(recipe, paths, layers, drift, calibration)
@@ -103,9 +113,16 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
 def _bacteria(recipe: Recipe, paths: list[Path], drift: np.ndarray) -> Float32[np.ndarray, "frame h w"]:
     layers = np.zeros((recipe.frames, recipe.height, recipe.width), np.float32)
     for path, look in zip(paths, recipe.looks, strict=True):
+        steps = np.diff(path.xy, axis=0, append=path.xy[-1:])
         for i in range(recipe.frames):
             x, y = path.xy[i] + drift[i]
-            draw(layers[i], look, x, y, path.heading[i], path.depth[i])
+            smear = recipe.shutter * steps[i]
+            if np.abs(smear).max() < 1:
+                draw(layers[i], look, x, y, path.heading[i], path.depth[i])
+                continue
+            part = replace(look, contrast=look.contrast / 3)
+            for share in (-1 / 3, 0, 1 / 3):
+                draw(layers[i], part, x + share * smear[0], y + share * smear[1], path.heading[i], path.depth[i])
     return layers
 
 
@@ -146,7 +163,8 @@ class _Scene:
         for _ in range(recipe.clutter):
             start = rng.uniform(0, [recipe.width, recipe.height])
             walk = start + np.cumsum(rng.normal(0, rng.uniform(0.02, 0.5), (recipe.frames, 2)), axis=0)
-            wide = float(rng.uniform(9, 22) * recipe.scale)
+            walk += np.outer(np.arange(recipe.frames), rng.normal(0, recipe.clutter_flow, 2))
+            wide = float(rng.choice([rng.uniform(10, 22), rng.uniform(20, 45)]) * recipe.scale)
             contrast = float(rng.choice([-1, 1]) * rng.uniform(0.3, 1) * recipe.clutter_contrast)
             self.blobs.append((walk, Look(wide, wide, contrast, 0.0, wide, 0.0, 0.0, 0.0)))
 

@@ -57,6 +57,7 @@ def _pattern(look: Look, px: np.ndarray, py: np.ndarray, heading: float, depth: 
     core = np.exp(squared * np.float32(-0.5 / sigma**2))
     # A blurred core spreads its light: its height falls, and past the focus it may turn over.
     height = look.contrast / blur**0.8 * np.cos(look.flip * np.clip(depth, -2.2, 2.2))
+    height /= 1 + 0.6 * look.relief
     out = np.float32(height) * core
     if look.relief:
         side = px * np.float32(np.cos(look.relief_angle)) + py * np.float32(np.sin(look.relief_angle))

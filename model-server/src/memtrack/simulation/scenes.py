@@ -36,7 +36,7 @@ def fibrous(h: int, w: int, scale: float, rng: np.random.Generator) -> Texture:
     direction, order = rng.uniform(0, np.pi), rng.choice([0.2, 0.6, 3.0])
     for blur in (0.8, 2.0, 4.5):
         layer = np.zeros((h, w), np.float32)
-        for _ in range(int(h * w / 2500 * rng.uniform(0.3, 1.3))):
+        for _ in range(max(1, int(h * w / 2500 * rng.uniform(0.3, 1.3)))):
             n = int(rng.integers(6, 20))
             angles = direction + rng.normal(0, order) + np.cumsum(rng.normal(0, 0.18, n))
             steps = 12 * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -65,8 +65,11 @@ def targets(
     return out
 
 
-def detection_loss(maps: Tensor, wanted: Tensor, settings: LossSettings) -> Tensor:
-    """Mean over the bacteria of a batch. `maps` [n, 1 + levels + 2, y, x], `wanted` [n, 5, y, x] from `targets`."""
+def detection_loss(maps: Tensor, wanted: Tensor, settings: LossSettings) -> tuple[Tensor, Tensor]:
+    """Mean over the bacteria of a batch, and each crop's share of the focal part (without gradient).
+
+    `maps` [n, 1 + levels + 2, y, x], `wanted` [n, 5, y, x] from `targets`.
+    """
     present, weight, level = wanted[:, 0], wanted[:, 1], wanted[:, 2].long()
     count = present.sum().clamp(min=8.0)
     logit = maps[:, 0]
@@ -74,7 +77,8 @@ def detection_loss(maps: Tensor, wanted: Tensor, settings: LossSettings) -> Tens
     entropy = functional.binary_cross_entropy_with_logits(logit, present, reduction="none")
     error = present * (1 - probability) + (1 - present) * probability
     balance = present * settings.alpha + (1 - present) * (1 - settings.alpha)
-    focal = (weight * balance * error**settings.gamma * entropy).sum()
+    focal = (weight * balance * error**settings.gamma * entropy).sum(dim=(1, 2))
     levels = (present * functional.cross_entropy(maps[:, 1:-2], level, reduction="none")).sum()
     off = functional.smooth_l1_loss(maps[:, -2:], wanted[:, 3:], beta=0.1, reduction="none").sum(dim=1)
-    return (focal + settings.level_weight * levels + settings.centre_weight * (present * off).sum()) / count
+    total = focal.sum() + settings.level_weight * levels + settings.centre_weight * (present * off).sum()
+    return total / count, focal.detach()

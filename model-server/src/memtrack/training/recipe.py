@@ -17,6 +17,7 @@ from memtrack.detector import Decoder
 from memtrack.engines import OpenVinoEngine
 from memtrack.models import OPENVINO, Model, ModelCard, register
 from memtrack.motion import SPECS
+from memtrack.retinanet import STRIDE
 from memtrack.training import thresholds
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
@@ -60,7 +61,7 @@ def finish(
         folder = Path(temporary)
         files = export(net, typical_frames(training), folder)
         engine = OpenVinoEngine(folder / OPENVINO)
-        raw = Decoder(stride=int(net.stride), box_size_px=config.model.box_size_px, floor=0.1)  # type: ignore[arg-type]
+        raw = Decoder(stride=STRIDE, box_size_px=config.model.box_size_px, floor=0.1)
         slope, offset = thresholds.calibration(thresholds.score_films(validation, engine, raw))
         decoder = dataclasses.replace(raw, slope=slope, offset=offset, floor=0.05)
         scored = thresholds.score_films(validation, engine, decoder)

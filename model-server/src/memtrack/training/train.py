@@ -17,7 +17,7 @@ from torch import nn
 from memtrack.errors import ModelNotFoundError
 from memtrack.models import load_model
 from memtrack.motion import SPECS
-from memtrack.retinanet import Net, build
+from memtrack.retinanet import STRIDE, Net, build
 from memtrack.training.batches import Batches
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
 from memtrack.training.loss import detection_loss
@@ -82,10 +82,10 @@ def optimise(
         SPECS[config.model.features],
         crop=settings.crop,
         size=settings.batch,
-        stride=int(net.stride),
+        stride=STRIDE,
         loss=config.loss,
     )
-    first = _resume(workspace, net, average, optimiser)
+    first = _resume(workspace, net, average, optimiser, batches)
     losses: list[float] = []
     started = time.monotonic()
     for iteration in range(first, settings.iterations):
@@ -93,11 +93,12 @@ def optimise(
         for group in optimiser.param_groups:
             group["lr"] = rate
         # Seeded by its number, so that a resumed training draws what an uninterrupted one would have drawn.
-        features, wanted = batches.draw(np.random.default_rng([settings.seed, iteration]))
+        features, wanted, chosen = batches.draw(np.random.default_rng([settings.seed, iteration]))
         inputs = torch.from_numpy(features).to(device, memory_format=torch.channels_last)
         with torch.autocast(device.split(":")[0], dtype=torch.bfloat16, enabled=settings.bfloat16):
             maps = net(inputs)
-        loss = detection_loss(maps.float(), torch.from_numpy(wanted).to(device), config.loss)
+        loss, shares = detection_loss(maps.float(), torch.from_numpy(wanted).to(device), config.loss)
+        batches.learned(chosen, shares.cpu().numpy())
         optimiser.zero_grad()
         loss.backward()  # type: ignore[no-untyped-call]
         nn.utils.clip_grad_norm_(net.parameters(), settings.clip)
@@ -111,7 +112,7 @@ def optimise(
             _append(workspace.folder / LOSSES, done, float(np.mean(losses)), rate)
             losses.clear()
         if done % settings.checkpoint_every == 0 and done < settings.iterations:
-            _save(workspace, done, net, average, optimiser)
+            _save(workspace, done, net, average, optimiser, batches)
     trained: nn.Module = average.module
     return trained
 
@@ -125,20 +126,28 @@ def schedule(iteration: int, settings: Optimisation) -> float:
 
 
 def _save(
-    workspace: Workspace, done: int, net: nn.Module, average: nn.Module, optimiser: torch.optim.Optimizer
+    workspace: Workspace,
+    done: int,
+    net: nn.Module,
+    average: nn.Module,
+    optimiser: torch.optim.Optimizer,
+    batches: Batches,
 ) -> None:
     state = {
         "done": done,
         "net": net.state_dict(),
         "average": average.state_dict(),
         "optimiser": optimiser.state_dict(),
+        "difficulty": torch.from_numpy(batches.difficulty),
     }
     partial = workspace.folder / f"{CHECKPOINT}.part"
     torch.save(state, partial)
     os.replace(partial, workspace.folder / CHECKPOINT)
 
 
-def _resume(workspace: Workspace, net: nn.Module, average: nn.Module, optimiser: torch.optim.Optimizer) -> int:
+def _resume(
+    workspace: Workspace, net: nn.Module, average: nn.Module, optimiser: torch.optim.Optimizer, batches: Batches
+) -> int:
     path = workspace.folder / CHECKPOINT
     if not path.is_file():
         return 0
@@ -146,6 +155,7 @@ def _resume(workspace: Workspace, net: nn.Module, average: nn.Module, optimiser:
     net.load_state_dict(state["net"])
     average.load_state_dict(state["average"])
     optimiser.load_state_dict(state["optimiser"])
+    batches.difficulty = state["difficulty"].numpy()
     return int(state["done"])
 
 

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tifffile
+
+from memtrack.cli import simulate as command
+from memtrack.errors import SettingsError
+from memtrack.simulation import scenes
+from memtrack.simulation.families import FAMILIES, HELD_OUT, draw_recipe
+from memtrack.simulation.film import Recipe, motility_of, simulate
+from memtrack.simulation.optics import Look, draw
+from memtrack.simulation.swimming import Gait, World, peak_diffusivity, swim
+from memtrack.tracks import Motility
+from memtrack.tracks_io import read_tracks
+
+LOOK = Look(length=9, width=4, contrast=100, halo=0.2, halo_radius=11, flip=0, relief=0, relief_angle=0)
+QUIET = Recipe(width=160, height=120, frames=12, texture=0.0, shading=0.0, read_noise=0.0, shot_noise=0.0, decoys=0)
+
+
+def test_the_same_seed_makes_the_same_film_and_another_one_another() -> None:
+    recipe = replace(QUIET, gaits=(Gait.SWIMMING,) * 3, looks=(LOOK,) * 3, read_noise=2.0)
+    first, again, other = simulate(recipe, 1), simulate(recipe, 1), simulate(recipe, 2)
+    np.testing.assert_array_equal(first.film.frames, again.film.frames)
+    np.testing.assert_array_equal(first.truth.x, again.truth.x)
+    assert (first.film.frames != other.film.frames).any()
+
+
+def test_a_cell_stands_where_the_truth_says_with_its_contrast_and_halo() -> None:
+    recipe = replace(QUIET, gaits=(Gait.SWIMMING,), looks=(LOOK,), depth_spread=0.0, level=100.0)
+    for seed in range(20):
+        made = simulate(recipe, seed)
+        for row in np.flatnonzero(
+            (made.truth.x > 40) & (made.truth.x < 120) & (made.truth.y > 40) & (made.truth.y < 80)
+        ):
+            frame = made.film.frames[made.truth.frames[row]].astype(float) - 100
+            y, x = np.mgrid[:120, :160]
+            core = np.clip(frame, 30, None) - 30
+            assert (core * x).sum() / core.sum() == pytest.approx(made.truth.x[row], abs=0.15)
+            assert (core * y).sum() / core.sum() == pytest.approx(made.truth.y[row], abs=0.15)
+            assert frame.max() == pytest.approx(98, abs=8)
+            assert -28 < frame.min() < -12
+            return
+    pytest.fail("no seed put the cell inside")
+
+
+def test_truth_follows_the_drift() -> None:
+    recipe = replace(QUIET, gaits=(Gait.STUCK,), looks=(LOOK,), drift_per_frame=(1.5, -0.5), frames=10)
+    made = next(m for m in (simulate(recipe, s) for s in range(30)) if len(m.truth) == 10)
+    np.testing.assert_allclose(made.truth.x - made.truth.x[0], 1.5 * np.arange(10), atol=1e-9)
+    np.testing.assert_allclose(made.truth.y - made.truth.y[0], -0.5 * np.arange(10), atol=1e-9)
+    assert set(made.truth.motility) == {Motility.NONE}
+
+
+def test_a_stuck_cell_is_no_truth_to_find_and_a_bright_swimmer_is() -> None:
+    stuck = simulate(replace(QUIET, gaits=(Gait.STUCK,) * 12, looks=(LOOK,) * 12), 3)
+    assert len(stuck.truth) > 0
+    assert stuck.truth.ignored.all()
+    swimming = simulate(replace(QUIET, gaits=(Gait.SWIMMING,) * 12, looks=(LOOK,) * 12, depth_spread=0.1), 3)
+    assert swimming.truth.ignored.mean() < 0.3
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [(0.0, Motility.NONE), (0.075, Motility.NONE), (0.076, Motility.LOW), (0.9, Motility.MEDIUM), (1.1, Motility.HIGH)],
+)
+def test_classes_are_the_papers(value: float, expected: Motility) -> None:
+    assert motility_of(value) is expected
+
+
+def test_brownian_motion_has_its_diffusivity_and_a_straight_run_more_at_longer_lags() -> None:
+    rng = np.random.default_rng(0)
+    walk = np.cumsum(rng.normal(0, np.sqrt(2 * 0.4 * 0.02), (20000, 2)), axis=0)
+    assert peak_diffusivity(walk[:, :], 0.02) == pytest.approx(0.4, rel=0.35)
+    run = np.stack([np.arange(101) * 0.1, np.zeros(101)], axis=1)
+    assert peak_diffusivity(run, 0.02) == pytest.approx((0.1 * 25) ** 2 / (4 * 25 * 0.02))
+    assert peak_diffusivity(run[:1], 0.02) == 0
+
+
+def test_each_gait_moves_as_its_name_says() -> None:
+    world = World(200, 200, 300, 0.25, 1 / 60, 15.0, 0.5)
+    rng = np.random.default_rng(4)
+    spread = {
+        gait: np.median([peak_diffusivity(swim(gait, world, rng).xy * 0.25, 1 / 60) for _ in range(15)])
+        for gait in Gait
+    }
+    assert spread[Gait.STUCK] == 0
+    assert spread[Gait.STUCK] < spread[Gait.BROWNIAN] < spread[Gait.HOPPING] < spread[Gait.SWIMMING]
+    assert spread[Gait.SWIMMING] > 1
+
+
+@pytest.mark.parametrize("name", sorted(scenes.SCENES))
+def test_scenes_are_standardised_and_of_any_size(name: str) -> None:
+    for shape in ((40, 90), (130, 70)):
+        image = scenes.SCENES[name](*shape, 1.0, np.random.default_rng(1))
+        assert image.shape == shape
+        assert image.dtype == np.float32
+        assert float(image.mean()) == pytest.approx(0, abs=1e-3)
+        assert float(image.std()) == pytest.approx(1, abs=1e-3)
+
+
+def test_drawing_outside_the_image_changes_nothing_and_half_outside_half() -> None:
+    image = np.zeros((60, 60), np.float32)
+    draw(image, LOOK, -100, 30, 0.0, 0.0)
+    assert not image.any()
+    draw(image, LOOK, 0.0, 30.0, 0.0, 0.0)
+    assert image[30, 0] == pytest.approx(LOOK.contrast, rel=0.05)
+
+
+def test_collagen_looks_as_measured() -> None:
+    """Against two stills of real collagen: sd 17-21 without shading, autocorrelation 0.5 near 7 px and gone at 16-27 px,
+    noise 3-5 levels, cells 76 to 132 levels bright with a dark halo of 16 to 28 at radius 9-14."""
+    texture = scenes.mottled(400, 400, 1.0, np.random.default_rng(3))
+    spectrum = np.abs(np.fft.fft2(texture)) ** 2
+    correlation = np.fft.ifft2(spectrum).real[0] / spectrum.mean()
+    correlation = correlation / correlation[0]
+    half = int(np.argmax(correlation < 0.5))
+    assert 4 <= half <= 11
+    assert np.abs(correlation[24:60]).max() < 0.25
+    drawn = [draw_recipe("collagen", np.random.default_rng(k), width=660, height=492) for k in range(300)]
+    textures, noises, brights, densities = [], [], [], []
+    for recipe in drawn:
+        textures.append(recipe.texture)
+        noises.append(np.hypot(recipe.read_noise, recipe.shot_noise * np.sqrt(recipe.level / 255)))
+        brights += [look.contrast for look in recipe.looks if look.contrast > 0]
+        densities.append(len(recipe.gaits) * 660 * 492 / (708 * 540))
+    for values, low, high in ((textures, 17, 21), (noises, 3, 5), (brights, 76, 132), (densities, 4, 14)):
+        below, above = np.mean(np.less(values, low)), np.mean(np.greater(values, high))
+        assert below > 0.01  # what was measured lies inside, with harder and easier films around it
+        assert above > 0.03
+        assert 0.02 < 1 - below - above
+
+
+def test_held_out_scenes_are_in_no_training_family() -> None:
+    seen = {
+        draw_recipe(family, np.random.default_rng(k), width=64, height=64).scene
+        for family in FAMILIES
+        if family not in HELD_OUT
+        for k in range(60)
+    }
+    assert seen.isdisjoint(HELD_OUT)
+    assert draw_recipe("foam", np.random.default_rng(1), width=64, height=64).scene == "foam"
+
+
+def arguments(*words: str) -> argparse.Namespace:
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return parser.parse_args(words)
+
+
+def test_the_command_writes_a_calibrated_film_and_its_truth_in_three_formats(tmp_path: Path) -> None:
+    path = tmp_path / "Gel ä 1.tif"
+    words = (str(path), "--frames", "6", "--width", "200", "--height", "150", "--seed", "3", "--family", "water")
+    assert command.run(arguments(*words)) == 0
+    with tifffile.TiffFile(path) as file:
+        assert file.asarray().shape == (6, 150, 200)
+        assert file.imagej_metadata is not None
+        assert file.imagej_metadata["unit"] == "micron"
+    csv, xml, mdf = (read_tracks(path.with_suffix(end)) for end in (".csv", ".xml", ".mdf"))
+    assert len(csv) == len(xml) == len(mdf) > 0
+    np.testing.assert_allclose(np.sort(csv.x), np.sort(mdf.x), atol=1e-3)
+    assert not list(tmp_path.glob("*.part"))
+
+
+def test_sizes_out_of_range_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match="--frames is 0"):
+        command.run(arguments(str(tmp_path / "a.tif"), "--frames", "0"))
+    with pytest.raises(SettingsError, match=r"let it end in \.tif"):
+        command.run(arguments(str(tmp_path / "a.avi")))
