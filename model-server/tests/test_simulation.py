@@ -9,9 +9,10 @@ import tifffile
 
 from memtrack.cli import simulate as command
 from memtrack.errors import SettingsError
+from memtrack.motility import motility_of
 from memtrack.simulation import scenes
 from memtrack.simulation.families import FAMILIES, HELD_OUT, draw_recipe
-from memtrack.simulation.film import Recipe, motility_of, simulate
+from memtrack.simulation.film import Recipe, simulate
 from memtrack.simulation.optics import Look, draw
 from memtrack.simulation.swimming import Gait, World, peak_diffusivity, swim
 from memtrack.tracks import Motility
@@ -33,14 +34,13 @@ def test_a_cell_stands_where_the_truth_says_with_its_contrast_and_halo() -> None
     recipe = replace(QUIET, gaits=(Gait.SWIMMING,), looks=(LOOK,), depth_spread=0.0, level=100.0)
     for seed in range(20):
         made = simulate(recipe, seed)
-        for row in np.flatnonzero(
-            (made.truth.x > 40) & (made.truth.x < 120) & (made.truth.y > 40) & (made.truth.y < 80)
-        ):
+        x, y = made.truth.x, made.truth.y
+        for row in np.flatnonzero((x > 40) & (x < 120) & (y > 40) & (y < 80)):
             frame = made.film.frames[made.truth.frames[row]].astype(float) - 100
-            y, x = np.mgrid[:120, :160]
+            rows, columns = np.mgrid[:120, :160]
             core = np.clip(frame, 30, None) - 30
-            assert (core * x).sum() / core.sum() == pytest.approx(made.truth.x[row], abs=0.15)
-            assert (core * y).sum() / core.sum() == pytest.approx(made.truth.y[row], abs=0.15)
+            assert (core * columns).sum() / core.sum() == pytest.approx(x[row], abs=0.15)
+            assert (core * rows).sum() / core.sum() == pytest.approx(y[row], abs=0.15)
             assert frame.max() == pytest.approx(98, abs=8)
             assert -28 < frame.min() < -12
             return
@@ -94,7 +94,7 @@ def test_each_gait_moves_as_its_name_says() -> None:
 
 @pytest.mark.parametrize("name", sorted(scenes.SCENES))
 def test_scenes_are_standardised_and_of_any_size(name: str) -> None:
-    for shape in ((40, 90), (130, 70)):
+    for shape in ((100, 190), (230, 120)):
         image = scenes.SCENES[name](*shape, 1.0, np.random.default_rng(1))
         assert image.shape == shape
         assert image.dtype == np.float32
@@ -111,7 +111,7 @@ def test_drawing_outside_the_image_changes_nothing_and_half_outside_half() -> No
 
 
 def test_collagen_looks_as_measured() -> None:
-    """Against two stills of real collagen: sd 17-21 without shading, autocorrelation 0.5 near 7 px and gone at 16-27 px,
+    """Against two stills of real collagen: sd 17-21 without shading, autocorrelation 0.5 at 7 px and gone at 16-27,
     noise 3-5 levels, cells 76 to 132 levels bright with a dark halo of 16 to 28 at radius 9-14."""
     texture = scenes.mottled(400, 400, 1.0, np.random.default_rng(3))
     spectrum = np.abs(np.fft.fft2(texture)) ** 2
@@ -131,7 +131,7 @@ def test_collagen_looks_as_measured() -> None:
         below, above = np.mean(np.less(values, low)), np.mean(np.greater(values, high))
         assert below > 0.01  # what was measured lies inside, with harder and easier films around it
         assert above > 0.03
-        assert 0.02 < 1 - below - above
+        assert below + above < 0.98
 
 
 def test_held_out_scenes_are_in_no_training_family() -> None:

@@ -70,14 +70,14 @@ class TorchEngine:
         from memtrack.retinanet import build
 
         self._torch, self._device = torch, device
-        self._net = build(architecture, channels)
-        self._net.load_state_dict(safetensors.torch.load_file(weights), strict=False)
-        self._net.eval().to(device)
+        self.net = build(architecture, channels)
+        self.net.load_state_dict(safetensors.torch.load_file(weights), strict=False)
+        self.net.eval().to(device)
 
     def run(self, features: UInt8[np.ndarray, "channel y x"]) -> Maps:
         """See `Engine.run`."""
         with self._torch.inference_mode():
-            maps: Maps = self._net(self._torch.from_numpy(features[None]).to(self._device))[0].float().cpu().numpy()
+            maps: Maps = self.net(self._torch.from_numpy(features[None]).to(self._device))[0].float().cpu().numpy()
             return maps
 
 

@@ -18,7 +18,7 @@ from memtrack.background import split_drift, temporal_background
 from memtrack.detections import Detections, FrameDetections, Level
 from memtrack.detector import detect
 from memtrack.errors import SettingsError
-from memtrack.film import Film
+from memtrack.film import Calibration, Film
 from memtrack.models import CRITERIA, Model
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
@@ -131,13 +131,20 @@ def ahead(pool: Executor, work: Callable[[T], R], items: Iterator[T], depth: int
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
     """Factor that brings the film's cells to a length the model knows; 1 where they have one already."""
-    length = settings.cell_length_px
-    if length is None and film.calibration.pixel_size_um is not None:
-        length = CELL_LENGTH_UM / film.calibration.pixel_size_um
-    if length is None:
+    known = model.card.cell_length_px
+    stated = settings.cell_length_px
+    return scale_to(known, film.calibration) if stated is None else _factor(known, stated)
+
+
+def scale_to(cell_length_px: tuple[float, float], calibration: Calibration) -> float:
+    """Factor that brings a film of this pixel size to cells of a length in `cell_length_px`; 1 without a pixel size."""
+    if calibration.pixel_size_um is None:
         return 1.0
-    low, high = model.card.cell_length_px
-    return float(np.clip(length, low, high)) / length
+    return _factor(cell_length_px, CELL_LENGTH_UM / calibration.pixel_size_um)
+
+
+def _factor(known: tuple[float, float], length: float) -> float:
+    return float(np.clip(length, *known)) / length
 
 
 def to_film(found: Detections, rest: tuple[float, float], scale: float) -> Detections:

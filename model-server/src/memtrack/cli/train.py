@@ -44,7 +44,10 @@ def run(args: argparse.Namespace) -> int:
     torch.set_num_threads(args.threads)
     cv2.setNumThreads(args.threads)
     workspace = Workspace(args.workspace or args.recipe.with_suffix(".work"))
-    model = train(config, workspace, args.models, device=args.device, workers=args.workers, report=_say)
+
+    model = train(
+        config, workspace, args.models, base=args.recipe.parent, device=args.device, workers=args.workers, report=_say
+    )
     print(model.folder)
     return 0
 

@@ -10,11 +10,12 @@ import numpy as np
 from jaxtyping import Float32, Float64, Shaped
 
 from memtrack.film import ArrayFilm, Calibration
+from memtrack.motility import motility_of
 from memtrack.resampling import read_shifted
 from memtrack.simulation import scenes
 from memtrack.simulation.optics import Look, draw
 from memtrack.simulation.swimming import Gait, Path, World, peak_diffusivity, swim
-from memtrack.tracks import Motility, TrackTable
+from memtrack.tracks import TrackTable
 
 BOX_PX = 30.0
 VISIBLE = 7.0
@@ -243,11 +244,6 @@ def _truth(
         ignored=columns[5],
         calibration=calibration,
     )
-
-
-def motility_of(diffusivity: float) -> Motility:
-    """The paper's class of a peak diffusivity in um^2/s: none to 0.075, low to 0.25, medium to 1, else high."""
-    return Motility(int(np.searchsorted([0.075, 0.25, 1.0], diffusivity)))
 
 
 def _still_part(layers: np.ndarray, drift: np.ndarray) -> Float32[np.ndarray, "h w"]:

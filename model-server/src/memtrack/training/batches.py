@@ -77,7 +77,7 @@ class Batches:
         part = np.ascontiguousarray(part)
         if rng.random() < 0.5:  # dark on bright is as good as bright on dark
             part[self.signed] = np.uint8(0) - np.maximum(part[self.signed], 1)  # 256 - v, in 8 bits
-        if rng.random() < 0.3:  # a film with more noise
+        if rng.random() < 0.3 and self.signed.any():  # a film with more noise
             signed = part[self.signed]
             first = int(rng.integers(len(self._noise) - signed.size))
             noise = self._noise[first : first + signed.size].reshape(signed.shape) * np.float32(rng.uniform(1, 8))

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from memtrack.errors import SettingsError
 from memtrack.motion import SPECS
-from memtrack.training.films import SimulatedSet
+from memtrack.training.films import Annotated, SimulatedSet
 from memtrack.training.loss import LossSettings
 
 T = TypeVar("T")
@@ -35,18 +35,6 @@ class ModelSettings:
     box_size_px: float = 30.0
     start_from: str = ""
     """'name' or 'name version' of a model of the registry whose weights are the start (fine-tuning)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Annotated:
-    """A user's film and its tracks (.mdf, .xml, .csv); `role` is 'training' or 'validation': films are never split."""
-
-    film: str
-    tracks: str
-    role: str = "training"
-    pixel_size_um: float = 0.0
-    frame_interval_seconds: float = 0.0
-    frames: int = 60
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,15 +8,38 @@ import json
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from memtrack.errors import SettingsError
+from memtrack.film import Calibration
+from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.motion import FeatureSpec
+from memtrack.pipeline import scale_to
+from memtrack.resampling import ScaledFilm
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
+from memtrack.tracks import Motility, TrackTable
+from memtrack.tracks_io import read_tracks
 from memtrack.training.samples import FilmSamples, extract
+from memtrack.video.opening import open_film
+
+
+@dataclass(frozen=True, slots=True)
+class Annotated:
+    """A user's film and its tracks (.mdf, .xml, .csv); `role` is 'training' or 'validation': films are never split.
+
+    pixel_size_um, frame_interval_seconds: 0 where the film's file says it. frames: how many of its frames are used.
+    """
+
+    film: str
+    tracks: str
+    role: str = "training"
+    pixel_size_um: float = 0.0
+    frame_interval_seconds: float = 0.0
+    frames: int = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +72,48 @@ def simulated_samples(
             paths.append(path)
             report(done + 1, len(jobs))
     return [_load(path, job[0].family) for path, job in zip(paths, jobs, strict=True)]
+
+
+def annotated_samples(
+    films: Sequence[Annotated], spec: FeatureSpec, cell_length_px: tuple[float, float], base: Path, *, seed: int
+) -> list[FilmSamples]:
+    """Samples of a user's films; paths are relative to `base`, the recipe's folder.
+
+    A film whose bacteria are longer or shorter than `cell_length_px` is brought to that range. Bacteria without a
+    class get one from the motility of their track.
+
+    Raises:
+        InvalidInputError: a film or its tracks cannot be read.
+        SettingsError: tracks without a class in a film without a pixel size or frame interval.
+    """
+    made = []
+    for number, entry in enumerate(films):
+        given = Calibration(entry.pixel_size_um or None, entry.frame_interval_seconds or None)
+        with open_film(base / entry.film, given) as film:
+            truth = with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
+            scale = scale_to(cell_length_px, film.calibration)
+            scaled = film if scale == 1 else ScaledFilm(film, scale)
+            truth = replace(truth, x=(truth.x + 0.5) * scale - 0.5, y=(truth.y + 0.5) * scale - 0.5)
+            rng = np.random.default_rng([seed, number])
+            made.append(extract(scaled, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))
+    return made
+
+
+def with_motility(truth: TrackTable, name: str) -> TrackTable:
+    """`truth` with the motility of its tracks measured where a row has none."""
+    if not (truth.motility == Motility.UNKNOWN).any():
+        return truth
+    if truth.calibration.pixel_size_um is None or truth.calibration.frame_interval_seconds is None:
+        raise SettingsError(
+            f"{name} has bacteria without a motility class, which needs the film's scale to be measured: give "
+            "pixel_size_um and frame_interval_seconds in the recipe"
+        )
+    motility = truth.motility.copy()
+    for track in truth.tracks():
+        measured = motility_of(peak_diffusivity(track, truth.calibration))
+        rows = (truth.ids == track.ids[0]) & (truth.motility == Motility.UNKNOWN)
+        motility[rows] = Motility.NONE if measured is Motility.UNKNOWN else measured
+    return replace(truth, motility=motility)
 
 
 def _make(job: tuple[SimulatedSet, int, FeatureSpec, Path]) -> Path:

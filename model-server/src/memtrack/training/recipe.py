@@ -18,10 +18,10 @@ from memtrack.engines import OpenVinoEngine
 from memtrack.models import OPENVINO, Model, ModelCard, register
 from memtrack.motion import SPECS
 from memtrack.retinanet import STRIDE
-from memtrack.training import thresholds
+from memtrack.training import figures, thresholds
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
-from memtrack.training.films import simulated_samples
+from memtrack.training.films import annotated_samples, simulated_samples
 from memtrack.training.samples import FilmSamples
 from memtrack.training.train import Report, Workspace, architecture, optimise
 
@@ -29,9 +29,20 @@ CALIBRATION_FRAMES = 64
 
 
 def train(
-    config: TrainingConfig, workspace: Workspace, root: Path | None, *, device: str, workers: int, report: Report
+    config: TrainingConfig,
+    workspace: Workspace,
+    root: Path | None,
+    *,
+    base: Path,
+    device: str,
+    workers: int,
+    report: Report,
 ) -> Model:
-    """Runs `config` to the end and registers the model as a new version under `root` (the user's models by default)."""
+    """Runs `config` to the end and registers the model as a new version under `root` (the user's models by default).
+
+    `base` is the folder to which the paths of annotated films are relative. The workspace keeps samples, checkpoint,
+    loss curve and precision-recall curves.
+    """
     started = time.monotonic()
     workspace.folder.mkdir(parents=True, exist_ok=True)
     spec = SPECS[config.model.features]
@@ -40,10 +51,17 @@ def train(
         if done % 10 == 0 or done == total:
             report(f"film {done} of {total}")
 
-    training = simulated_samples(config.training, spec, workspace.samples, workers=workers, report=films)
-    validation = simulated_samples(config.validation, spec, workspace.samples, workers=workers, report=films)
+    parts = []
+    for role, sets in (("training", config.training), ("validation", config.validation)):
+        own = [a for a in config.annotated if a.role == role]
+        parts.append(
+            simulated_samples(sets, spec, workspace.samples, workers=workers, report=films)
+            + annotated_samples(own, spec, config.model.cell_length_px, base, seed=config.optimisation.seed)
+        )
+    training, validation = parts
     net = optimise(config, training, workspace, device, report)
-    return finish(config, net, training, validation, root, minutes=(time.monotonic() - started) / 60, report=report)
+    minutes = (time.monotonic() - started) / 60
+    return finish(config, net, training, validation, workspace, root, minutes=minutes, report=report)
 
 
 def finish(
@@ -51,6 +69,7 @@ def finish(
     net: nn.Module,
     training: list[FilmSamples],
     validation: list[FilmSamples],
+    workspace: Workspace,
     root: Path | None,
     *,
     minutes: float,
@@ -65,7 +84,9 @@ def finish(
         slope, offset = thresholds.calibration(thresholds.score_films(validation, engine, raw))
         decoder = dataclasses.replace(raw, slope=slope, offset=offset, floor=0.05)
         scored = thresholds.score_films(validation, engine, decoder)
-        chosen = [thresholds.choose(thresholds.curve(scored, level)) for level in Level]
+        curves = {level.name.lower(): thresholds.curve(scored, level) for level in Level}
+        chosen = [thresholds.choose(curve) for curve in curves.values()]
+        figures.write(workspace.folder, curves)
         results = summary(scored, validation, engine, decoder)
         report(json.dumps(results))
         card = ModelCard(
@@ -96,6 +117,8 @@ def summary(
 ) -> dict[str, object]:
     """Figures of the card: best F1 over all and by family, at one threshold, and the error of the centres."""
     whole = thresholds.curve(scored)
+    if not len(whole.thresholds):
+        return {"frames": scored.frames, "f1": 0.0}
     best = int(whole.f1.argmax())
     threshold = float(whole.thresholds[best])
     right = scored.found & (scored.scores >= threshold)

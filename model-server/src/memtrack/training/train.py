@@ -20,12 +20,12 @@ from memtrack.motion import SPECS
 from memtrack.retinanet import STRIDE, Net, build
 from memtrack.training.batches import Batches
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
+from memtrack.training.figures import LOSSES
 from memtrack.training.loss import detection_loss
 from memtrack.training.samples import FilmSamples
 
 Report = Callable[[str], None]
 CHECKPOINT = "checkpoint.pt"
-LOSSES = "loss.csv"
 
 
 @dataclass(frozen=True, slots=True)
