@@ -50,6 +50,18 @@ def test_places_that_point_to_one_bacterium_agree_on_a_mean_weighted_by_score() 
     np.testing.assert_allclose(centres, [expected, expected, 37.5], atol=1e-5)
 
 
+def test_both_ends_of_a_bacterium_become_one_and_a_neighbour_stays_another() -> None:
+    maps = silent()
+    for column, logit in ((2, 1.0), (4, 2.0), (7, 1.5)):  # x = 9.5, 17.5 and 29.5
+        maps[0, 3, column] = logit
+    maps[4, 3, 2] = 0.25  # points to x = 10.5, 7 px from the best one
+    found = Decoder().decode(maps, 32, 48)
+    centres = (found.boxes[:, 0] + found.boxes[:, 2]) / 2
+    np.testing.assert_allclose(centres, [17.5, 17.5, 29.5], atol=1e-5)
+    centres = (Decoder(distinct_px=6).decode(maps, 32, 48).boxes[:, ::2] / 2).sum(axis=1)
+    np.testing.assert_allclose(centres, [10.5, 17.5, 29.5], atol=1e-5)
+
+
 def test_nothing_is_found_in_the_padding() -> None:
     maps = silent()
     maps[0] = 5

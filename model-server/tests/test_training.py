@@ -10,7 +10,7 @@ import tifffile
 from memtrack.boxes import square_boxes
 from memtrack.cli import models as models_command
 from memtrack.cli import train as command
-from memtrack.detections import Detections, Level
+from memtrack.detections import Detections
 from memtrack.engines import TorchEngine
 from memtrack.errors import ModelNotFoundError, SettingsError
 from memtrack.film import ArrayFilm, Calibration
@@ -212,28 +212,45 @@ def test_precision_and_recall_by_hand() -> None:
     np.testing.assert_allclose(points.thresholds, [0.9, 0.8, 0.3])
     np.testing.assert_allclose(points.precision, [1, 2 / 3, 3 / 4])
     np.testing.assert_allclose(points.recall, [1 / 4, 2 / 4, 3 / 4])
-    assert choose(points)["max_f1"] == pytest.approx(0.3)
 
 
 def test_calibrated_scores_are_shares_of_right_ones() -> None:
     rng = np.random.default_rng(0)
     logits = rng.normal(0, 2, 20000)
     right = rng.random(20000) < 1 / (1 + np.exp(-(1.7 * logits - 0.6)))
-    slope, offset = calibration(scored(1 / (1 + np.exp(-logits)), right, 20000))
+    slope, offset = calibration((1 / (1 + np.exp(-logits))).astype(np.float32), right)
     assert slope == pytest.approx(1.7, abs=0.1)
     assert offset == pytest.approx(-0.6, abs=0.1)
 
 
-def test_maximum_precision_is_stricter_than_maximum_f1_but_still_finds() -> None:
+def test_one_probability_bounds_all_levels_and_maximum_precision_is_the_stricter_one() -> None:
     rng = np.random.default_rng(1)
-    logits = rng.normal(0, 2, 5000)
-    right = rng.random(5000) < 1 / (1 + np.exp(-2 * logits))
-    points = curve(scored(1 / (1 + np.exp(-logits)), right, 3000), Level.LOW)
-    chosen = choose(points)
-    assert chosen["max_precision"] > chosen["max_f1"]
-    at = np.searchsorted(-points.thresholds, -chosen["max_precision"])
-    assert points.precision[at] >= points.precision[points.f1.argmax()]
-    assert points.recall[at] >= 0.74 * points.recall[points.f1.argmax()]
+    logits = rng.normal(0, 2, 9000)
+    levels = rng.integers(0, 3, 9000)
+    hidden = np.array([0.0, 1.5, -1.0])[levels]  # what a score of a level is worth
+    right = rng.random(9000) < 1 / (1 + np.exp(-(2 * logits + hidden)))
+    made = scored(1 / (1 + np.exp(-logits)), right, 5000)
+    made = replace(made, levels=levels, true_level=np.where(right, levels, -1))
+    chosen = choose(made)
+    for criterion in ("max_precision", "max_f1"):
+        worth = [2 * np.log(t / (1 - t)) + h for t, h in zip(chosen[criterion], (0.0, 1.5, -1.0), strict=True)]
+        np.testing.assert_allclose(worth, np.mean(worth), atol=0.4)
+
+    def judged(thresholds: tuple[float, ...]) -> tuple[float, float]:
+        kept = made.scores >= np.array(thresholds)[levels]
+        return float(right[kept].mean()), float((right & kept).sum() / 5000)
+
+    strict, best = judged(chosen["max_precision"]), judged(chosen["max_f1"])
+    assert strict[0] > best[0]
+    assert strict[0] == pytest.approx(0.95, abs=0.005) or strict[1] < 0.8 * best[1]
+    f1 = 2 * best[0] * best[1] / sum(best)
+    for t in np.linspace(0.1, 0.9, 17):
+        p, r = judged((t, t, t))
+        assert f1 > 2 * p * r / (p + r) - 0.002
+
+
+def test_without_a_detection_there_are_still_thresholds() -> None:
+    assert choose(scored(np.zeros(0), np.zeros(0, bool), 4))["max_f1"] == pytest.approx((0.5, 0.5, 0.5))
 
 
 def test_the_shipped_recipe_can_be_read_and_is_the_shipped_models() -> None:

@@ -39,7 +39,8 @@ class Decoder:
 
     stride: pixels a place of the maps covers. box_size_px: edge of the boxes the model was trained on (paper: 30).
     slope, offset: score = sigmoid(slope * logit + offset), fitted on the validation films to be a probability.
-    floor: candidates below this score are not listed at all.
+    floor: candidates below this score are not listed at all. distinct_px: candidates nearer than this to a better one
+    are of the same bacterium; a long or two-sided one answers at both of its ends.
     """
 
     stride: int = 4
@@ -47,12 +48,14 @@ class Decoder:
     slope: float = 1.0
     offset: float = 0.0
     floor: float = 0.05
+    distinct_px: float = 8.0
 
     def decode(self, maps: Maps, height: int, width: int) -> Detections:
         """Candidates of one frame of `height` x `width` pixels, several of them on each bacterium.
 
         A candidate's centre is the mean, weighted by the scores, of those candidates that point to within `AGREEING_PX`
-        of it: their errors differ, so the mean is more exact than the best one's.
+        of it: their errors differ, so the mean is more exact than the best one's. Candidates of one bacterium then get
+        the best one's centre, so that the pruner's overlap filter leaves one of them.
         """
         scores = 1 / (1 + np.exp(-(self.slope * maps[0] + self.offset)))
         rows, columns = np.nonzero(scores >= self.floor)
@@ -65,7 +68,8 @@ class Decoder:
         inside = ((centres >= -0.5) & (centres <= np.array([width, height]) - 0.5)).all(axis=1)
         levels = maps[1:-2, rows, columns].argmax(axis=0)
         centres, chosen, levels = centres[inside], chosen[inside], levels[inside]
-        boxes = square_boxes(_consensus(centres, chosen), self.box_size_px).astype(np.float32)
+        centres = _led(_consensus(centres, chosen), chosen, self.distinct_px)
+        boxes = square_boxes(centres, self.box_size_px).astype(np.float32)
         return Detections(boxes, chosen.astype(np.float32), levels.astype(np.int8))
 
 
@@ -74,6 +78,21 @@ def _consensus(centres: Float64[np.ndarray, "n 2"], scores: Float32[np.ndarray, 
     weights = scores * (np.square(offsets).sum(axis=2) <= AGREEING_PX**2)
     means: np.ndarray = weights @ centres / weights.sum(axis=1, keepdims=True)
     return means
+
+
+def _led(
+    centres: Float64[np.ndarray, "n 2"], scores: Float32[np.ndarray, " n"], distinct_px: float
+) -> Float64[np.ndarray, "n 2"]:
+    """Each centre moved onto that of the best scored candidate nearer than `distinct_px`, best ones first."""
+    near = np.square(centres[None] - centres[:, None]).sum(axis=2) < distinct_px**2
+    out = centres.copy()
+    free = np.ones(len(centres), bool)
+    for i in np.argsort(-scores, kind="stable"):
+        if free[i]:
+            followers = near[i] & free
+            out[followers] = centres[i]
+            free &= ~followers
+    return out
 
 
 def padded(features: UInt8[np.ndarray, "channel height width"]) -> UInt8[np.ndarray, "channel y x"]:

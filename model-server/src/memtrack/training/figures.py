@@ -4,26 +4,26 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from memtrack.evaluation.charts import Axis, Series, line_chart
-from memtrack.training.thresholds import Curve, choose
+from memtrack.training.thresholds import Curve
 
 LOSSES = "loss.csv"
 POINTS = 60
 
 
-def write(folder: Path, curves: Mapping[str, Curve]) -> None:
+def write(folder: Path, curves: Mapping[str, Curve], chosen: Mapping[str, Sequence[float]]) -> None:
     """Writes `precision_recall_<level>.svg` for each curve, with the chosen thresholds in its axis, and `loss.svg`."""
-    for level, curve in curves.items():
+    for number, (level, curve) in enumerate(curves.items()):
         if not len(curve.thresholds):
             continue
         some = np.unique(np.linspace(0, len(curve.thresholds) - 1, POINTS).astype(int))
         marks = [(0.0, "0"), (1.0, "1")]
-        marks += [(value, f"{value:.2f} {name.replace('_', ' ')}") for name, value in choose(curve).items()]
+        marks += [(values[number], f"{values[number]:.2f} {name.replace('_', ' ')}") for name, values in chosen.items()]
         lines = [
             Series(name, curve.thresholds[some].tolist(), values[some].tolist())
             for name, values in (("precision", curve.precision), ("recall", curve.recall))

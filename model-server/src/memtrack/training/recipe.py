@@ -81,12 +81,13 @@ def finish(
         files = export(net, typical_frames(training), folder)
         engine = OpenVinoEngine(folder / OPENVINO)
         raw = Decoder(stride=STRIDE, box_size_px=config.model.box_size_px, floor=0.1)
-        slope, offset = thresholds.calibration(thresholds.score_films(validation, engine, raw))
+        first = thresholds.score_films(validation, engine, raw)
+        slope, offset = thresholds.calibration(first.scores, first.found)
         decoder = dataclasses.replace(raw, slope=slope, offset=offset, floor=0.05)
         scored = thresholds.score_films(validation, engine, decoder)
         curves = {level.name.lower(): thresholds.curve(scored, level) for level in Level}
-        chosen = [thresholds.choose(curve) for curve in curves.values()]
-        figures.write(workspace.folder, curves)
+        chosen = thresholds.choose(scored)
+        figures.write(workspace.folder, curves, chosen)
         results = summary(scored, validation, engine, decoder)
         report(json.dumps(results))
         card = ModelCard(
@@ -99,7 +100,7 @@ def finish(
             decoder=decoder,
             levels=tuple(level.name.lower() for level in Level),
             cell_length_px=config.model.cell_length_px,
-            thresholds={c: tuple(round(t[c], 4) for t in chosen) for c in ("max_precision", "max_f1")},
+            thresholds={criterion: tuple(round(t, 4) for t in values) for criterion, values in chosen.items()},
             training={"config": dataclasses.asdict(config), "minutes": round(minutes, 1)},
             results=results,
         )

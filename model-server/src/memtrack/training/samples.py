@@ -23,7 +23,7 @@ class FilmSamples:
     """Frames of one film: features, and for each frame rows (x, y, level, ignored) on the grid of the features."""
 
     features: UInt8[np.ndarray, "frame channel y x"]
-    truth: tuple[Float32[np.ndarray, "n 4"], ...]
+    truth: tuple[Float32[np.ndarray, "_ 4"], ...]
     family: str = "film"
 
     def __len__(self) -> int:
@@ -58,7 +58,7 @@ def extract(
         features.append(made.frame(int(i)))
         at = np.flatnonzero(truth.frames == i)
         rest = split_drift(motion.drift[i])[1]
-        levels = [level_of(m) for m in truth.motility[at]]
+        levels = [level_of(int(m)) for m in truth.motility[at]]
         columns = (truth.x[at] - rest[0], truth.y[at] - rest[1], levels, truth.ignored[at])
         rows.append(np.stack([np.asarray(c, np.float32) for c in columns], axis=1))
     return FilmSamples(np.stack(features), tuple(rows), family)

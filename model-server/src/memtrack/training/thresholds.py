@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
@@ -16,7 +16,7 @@ from memtrack.training.samples import IGNORED, LEVEL, FilmSamples, X, Y
 
 MATCH_PX = 8.0
 """A detection is right when its centre is this near a bacterium's: stricter than the paper's IoU 0.1 (24 px)."""
-SURE_PRECISION = 0.98
+SURE_PRECISION = 0.95
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,15 +86,14 @@ def match(found: Detections, truth: Float32[np.ndarray, "n 4"]) -> tuple[np.ndar
     return found.scores[keep], found.levels[keep].astype(int), right[keep], error[keep], level[keep]
 
 
-def calibration(scored: Scored) -> tuple[float, float]:
-    """Slope and offset that turn the logits of `scored` into probabilities of being right (Platt 1999), by Newton's
+def calibration(scores: Float32[np.ndarray, " n"], found: Bool[np.ndarray, " n"]) -> tuple[float, float]:
+    """Slope and offset that turn the logits of scores into probabilities of being right (Platt 1999), by Newton's
     method."""
-    p = np.clip(scored.scores.astype(np.float64), 1e-6, 1 - 1e-6)
-    x = np.stack([np.log(p / (1 - p)), np.ones(len(p))], axis=1)
-    y = scored.found.astype(np.float64)
+    x = np.stack([_logit(scores), np.ones(len(scores))], axis=1)
+    y = found.astype(np.float64)
     weights = np.array([1.0, 0.0])
     for _ in range(30):
-        fit = 1 / (1 + np.exp(-(x @ weights)))
+        fit = _sigmoid(x @ weights)
         curvature = (x * (fit * (1 - fit))[:, None]).T @ x + 1e-6 * np.eye(2)
         step = np.linalg.solve(curvature, x.T @ (y - fit))
         weights = weights + np.clip(step, -1, 1)
@@ -123,19 +122,51 @@ def curve(scored: Scored, level: Level | None = None) -> Curve:
     return Curve(scores[last].astype(float), precision, right[last] / max(total, 1))
 
 
-def choose(curve: Curve) -> dict[str, float]:
-    """The threshold for each criterion.
+def choose(scored: Scored) -> dict[str, tuple[float, ...]]:
+    """Thresholds of the levels for each criterion.
 
-    max_f1: where F1 is highest. max_precision: precision alone is highest where almost nothing is found, so it is the
-    lowest threshold above that of max_f1 with precision 0.98, or with the best precision among those that keep three
-    quarters of its recall.
+    Each level's scores are turned into the probability of being right that they had on these films, and one bound on
+    that probability holds for all levels: so none is asked for more than another. max_f1: where F1 over all levels is
+    highest. max_precision: precision alone is highest where almost nothing is found, so it is the lowest bound above
+    that of max_f1 with precision 0.95, or with the best precision among those that keep three quarters of its recall.
     """
-    if not len(curve.thresholds):
+    fits = {level: _level_fit(scored, level) for level in Level}
+    slopes, offsets = (np.array([fits[level][k] for level in Level]) for k in range(2))
+    probability = _sigmoid(slopes[scored.levels] * _logit(scored.scores) + offsets[scored.levels])
+    bounds = _bounds(curve(replace(scored, scores=probability.astype(np.float32))))
+    return {
+        criterion: tuple(float(t) for t in _sigmoid((_logit(np.full(len(Level), bound)) - offsets) / slopes))
+        for criterion, bound in bounds.items()
+    }
+
+
+def _bounds(pooled: Curve) -> dict[str, float]:
+    if not len(pooled.thresholds):
         return {"max_precision": 0.5, "max_f1": 0.5}
-    best = int(curve.f1.argmax())
+    best = int(pooled.f1.argmax())
     stricter = np.arange(best + 1)
-    sure = stricter[curve.precision[: best + 1] >= SURE_PRECISION]
-    useful = stricter[curve.recall[: best + 1] >= 0.75 * curve.recall[best]]
+    sure = stricter[pooled.precision[: best + 1] >= SURE_PRECISION]
+    useful = stricter[pooled.recall[: best + 1] >= 0.75 * pooled.recall[best]]
     kept = np.intersect1d(sure, useful)
-    strict = int(kept.max()) if len(kept) else int(useful[curve.precision[useful].argmax()])
-    return {"max_precision": float(curve.thresholds[strict]), "max_f1": float(curve.thresholds[best])}
+    strict = int(kept.max()) if len(kept) else int(useful[pooled.precision[useful].argmax()])
+    return {"max_precision": float(pooled.thresholds[strict]), "max_f1": float(pooled.thresholds[best])}
+
+
+def _level_fit(scored: Scored, level: Level) -> tuple[float, float]:
+    """`calibration` of one level's detections; the scores as they are where there are too few to tell."""
+    mine = scored.levels == level
+    if min((scored.found & mine).sum(), (~scored.found & mine).sum()) < 20:
+        return 1.0, 0.0
+    slope, offset = calibration(scored.scores[mine], scored.found[mine])
+    return (slope, offset) if slope > 0.2 else (1.0, 0.0)
+
+
+def _logit(p: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    clipped = np.clip(np.asarray(p, np.float64), 1e-6, 1 - 1e-6)
+    logit: np.ndarray = np.log(clipped / (1 - clipped))
+    return logit
+
+
+def _sigmoid(x: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    probability: np.ndarray = 1 / (1 + np.exp(-x))
+    return probability
