@@ -39,7 +39,13 @@ final class ManagedServer {
         lock(progress);
         try {
             Running current = running;
-            if (current == null || !candidates.contains(current.server.interpreter()) || !answers(current)) {
+            boolean wanted = current != null && isOneOf(candidates, current.server.interpreter());
+            if (current != null && !wanted && inUse(current)) {
+                throw new DetectorException(
+                        "Another run is using the server of %s: wait for it, or use the same Python."
+                                .formatted(current.server.interpreter().describe()));
+            }
+            if (current == null || !wanted || !answers(current)) {
                 current = start(candidates, progress);
             }
             return use(current);
@@ -63,7 +69,7 @@ final class ManagedServer {
     }
 
     private Running start(List<Interpreter> candidates, Progress progress) {
-        // Users of a server that died, or runs on another Python, would only learn it later.
+        // It has died, or nobody uses it.
         end();
         List<String> reasons = new ArrayList<>();
         for (Interpreter candidate : candidates) {
@@ -93,6 +99,14 @@ final class ManagedServer {
             server.end();
             throw e;
         }
+    }
+
+    private static boolean isOneOf(List<Interpreter> candidates, Interpreter interpreter) {
+        return candidates.stream().anyMatch(candidate -> candidate.command().equals(interpreter.command()));
+    }
+
+    private static boolean inUse(Running current) {
+        return current.server.alive() && !current.users.isEmpty();
     }
 
     private static boolean answers(Running current) {

@@ -42,11 +42,16 @@ final class Commands {
         }
     }
 
+    /** In lines that fit into a dialog. */
+    static String wrapped(String sentence) {
+        return sentence.replaceAll("(.{1,80})(\\s+|$)", "$1\n").strip();
+    }
+
     private static void tell(String sentence) {
         if (GraphicsEnvironment.isHeadless()) {
             IJ.log("MEMTrack: " + sentence);
         } else {
-            IJ.showMessage("MEMTrack", sentence);
+            IJ.showMessage("MEMTrack", wrapped(sentence));
         }
     }
 

@@ -98,7 +98,7 @@ final class TrackDialog {
     private static Optional<Boolean> page(String complaint, boolean common, Map<TrackOption, String> values) {
         GenericDialog dialog = new GenericDialog(common ? "MEMTrack" : "MEMTrack: more options");
         if (!complaint.isEmpty()) {
-            dialog.addMessage(wrapped(complaint), null, Color.RED);
+            dialog.addMessage(Commands.wrapped(complaint), null, Color.RED);
         }
         List<TrackOption> shown = new ArrayList<>();
         if (!common) {
@@ -174,9 +174,5 @@ final class TrackDialog {
                         .round(new MathContext(6))
                         .stripTrailingZeros()
                         .toPlainString();
-    }
-
-    private static String wrapped(String sentence) {
-        return sentence.replaceAll("(.{1,70})(\\s+|$)", "$1\n").strip();
     }
 }

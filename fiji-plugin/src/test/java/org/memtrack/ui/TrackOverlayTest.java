@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.ui;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import ij.IJ;
+import ij.ImagePlus;
+import ij.gui.Overlay;
+import ij.gui.Roi;
+import java.util.List;
+import java.util.OptionalDouble;
+import org.junit.jupiter.api.Test;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.Level;
+import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackPoint;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.FrameAxis;
+import org.memtrack.video.ImageFilm;
+
+class TrackOverlayTest {
+    /** Frames 3 and 4 of the image, counted from 0; the second is interpolated. */
+    private static final Track TRACK = new Track(
+            0,
+            List.of(
+                    new TrackPoint(
+                            3, new Box(9.5, 19.5, 29.5, 59.5), new Detection(new Box(0, 0, 1, 1), 0.9, Level.LOW)),
+                    new TrackPoint(4, new Box(10.5, 19.5, 30.5, 59.5), null)));
+
+    @Test
+    void boxesLieOnTheSlicesOfTheirFramesAndInterpolatedOnesAreDashed() {
+        ImagePlus image = IJ.createImage("avi", "8-bit", 100, 100, 9);
+        Overlay overlay = overlay(image, FrameAxis.Z);
+
+        assertThat(overlay.size()).isEqualTo(3);
+        Roi observed = overlay.get(0);
+        assertThat(observed.getPosition()).isEqualTo(4);
+        // ImageJ counts from the corner of a pixel.
+        assertThat(observed.getFloatBounds().getX()).isEqualTo(10);
+        assertThat(observed.getFloatBounds().getHeight()).isEqualTo(40);
+        assertThat(observed.getStroke() == null || observed.getStroke().getDashArray() == null)
+                .isTrue();
+        Roi interpolated = overlay.get(1);
+        assertThat(interpolated.getPosition()).isEqualTo(5);
+        assertThat(interpolated.getStroke().getDashArray()).isNotNull();
+        assertThat(overlay.get(2).getTypeAsString()).isEqualTo("Polyline");
+    }
+
+    @Test
+    void ofAHyperstackEveryChannelShowsThem() {
+        ImagePlus image = IJ.createHyperStack("film", 100, 100, 2, 1, 9, 8);
+        image.setOpenAsHyperStack(true);
+        Overlay overlay = overlay(image, FrameAxis.T);
+        assertThat(overlay.get(0).getCPosition()).isZero();
+        assertThat(overlay.get(0).getTPosition()).isEqualTo(4);
+    }
+
+    private static Overlay overlay(ImagePlus image, FrameAxis axis) {
+        FilmOptions options = new FilmOptions(axis, 1, 2, 8, OptionalDouble.empty(), OptionalDouble.empty());
+        TrackOverlay.show(image, new ImageFilm(image, options), List.of(TRACK));
+        return image.getOverlay();
+    }
+}
