@@ -13,7 +13,7 @@ from memtrack.motility import motility_of
 from memtrack.simulation import scenes
 from memtrack.simulation.families import FAMILIES, HELD_OUT, draw_recipe
 from memtrack.simulation.film import Recipe, simulate
-from memtrack.simulation.optics import Look, draw
+from memtrack.simulation.optics import Look, apparent_centre, draw
 from memtrack.simulation.swimming import Gait, World, peak_diffusivity, swim
 from memtrack.tracks import Motility
 from memtrack.tracks_io import read_tracks
@@ -45,6 +45,16 @@ def test_a_cell_stands_where_the_truth_says_with_its_contrast_and_halo() -> None
             assert -28 < frame.min() < -12
             return
     pytest.fail("no seed put the cell inside")
+
+
+def test_under_oblique_light_the_truth_is_where_the_cell_seems_to_be() -> None:
+    oblique = replace(LOOK, halo=0.0, length=6, width=6, relief=2.0, relief_angle=0.7)
+    dx, dy = apparent_centre(oblique, 0.3, 0.0)
+    sigma = 6 / 2.355
+    # Centroid of the square of (1 + r u) exp(-u^2 / 2) along the light, u in units of sigma: r / (1 + r^2 / 2).
+    assert np.hypot(dx, dy) == pytest.approx(sigma * 2 / 3, rel=0.03)
+    assert np.arctan2(dy, dx) == pytest.approx(0.7, abs=0.02)
+    assert apparent_centre(LOOK, 0.3, 0.5) == (0.0, 0.0)
 
 
 def test_truth_follows_the_drift() -> None:

@@ -13,7 +13,7 @@ from memtrack.film import ArrayFilm, Calibration
 from memtrack.motility import motility_of
 from memtrack.resampling import read_shifted
 from memtrack.simulation import scenes
-from memtrack.simulation.optics import Look, draw
+from memtrack.simulation.optics import Look, apparent_centre, draw
 from memtrack.simulation.swimming import Gait, Path, World, peak_diffusivity, swim
 from memtrack.tracks import TrackTable
 
@@ -231,7 +231,9 @@ def _truth(
         motility = int(motility_of(diffusivity))
         for i in np.flatnonzero(inside):
             strength = _strength(layers[i], still, seen[i], drift[i], look) / noise
-            rows.append((int(i), number, float(seen[i, 0]), float(seen[i, 1]), motility, strength < VISIBLE))
+            dx, dy = apparent_centre(look, path.heading[i], path.depth[i])
+            x, y = float(seen[i, 0]) + dx, float(seen[i, 1]) + dy
+            rows.append((int(i), number, x, y, motility, strength < VISIBLE))
     columns = list(zip(*rows, strict=True)) if rows else [()] * 6
     return TrackTable.of(
         columns[0],

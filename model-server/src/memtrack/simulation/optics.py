@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float32
@@ -44,6 +44,20 @@ def draw(image: Float32[np.ndarray, "h w"], look: Look, x: float, y: float, head
     px = np.arange(left, right, dtype=np.float32) - np.float32(x)
     py = (np.arange(top, bottom, dtype=np.float32) - np.float32(y))[:, None]
     image[top:bottom, left:right] += _pattern(look, px, py, heading, depth)
+
+
+def apparent_centre(look: Look, heading: float, depth: float) -> tuple[float, float]:
+    """Where a bacterium seems to be, (x, y) from its middle: the centroid of its squared core.
+
+    Oblique light moves the bright side, which is what anyone marks, away from the middle of the cell.
+    """
+    if not look.relief:
+        return 0.0, 0.0
+    reach = int(np.ceil(look.length / 2 + 2 * look.width))
+    axis = np.arange(-reach, reach + 1, dtype=np.float32)
+    weight = np.square(_pattern(replace(look, halo=0.0), axis, axis[:, None], heading, depth))
+    total = float(weight.sum()) + 1e-12
+    return float((weight * axis).sum()) / total, float((weight * axis[:, None]).sum()) / total
 
 
 def _pattern(look: Look, px: np.ndarray, py: np.ndarray, heading: float, depth: float) -> Float32[np.ndarray, "h w"]:

@@ -16,7 +16,7 @@ from memtrack.training.samples import IGNORED, LEVEL, FilmSamples, X, Y
 
 MATCH_PX = 8.0
 """A detection is right when its centre is this near a bacterium's: stricter than the paper's IoU 0.1 (24 px)."""
-SURE_PRECISION = 0.95
+SURE_PRECISION = 0.97
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,7 @@ def choose(scored: Scored) -> dict[str, tuple[float, ...]]:
     Each level's scores are turned into the probability of being right that they had on these films, and one bound on
     that probability holds for all levels: so none is asked for more than another. max_f1: where F1 over all levels is
     highest. max_precision: precision alone is highest where almost nothing is found, so it is the lowest bound above
-    that of max_f1 with precision 0.95, or with the best precision among those that keep three quarters of its recall.
+    that of max_f1 with precision 0.97, or with the best precision among those that keep three quarters of its recall.
     """
     fits = {level: _level_fit(scored, level) for level in Level}
     slopes, offsets = (np.array([fits[level][k] for level in Level]) for k in range(2))
