@@ -27,7 +27,7 @@ class FailuresTest {
     @BeforeAll
     static void makeALongFilm() throws Exception {
         film = folder.resolve("long.tif");
-        Python.simulate(film, 7, 150, 320, 240);
+        SwimmersFilm.save(film, 150, 320, 240);
     }
 
     @ParameterizedTest

@@ -27,7 +27,7 @@ class ProcessesTest {
     @BeforeAll
     static void makeAFilm() throws Exception {
         film = folder.resolve("film.tif");
-        Python.simulate(film, 7, 150, 320, 240);
+        SwimmersFilm.save(film, 150, 320, 240);
     }
 
     @Test

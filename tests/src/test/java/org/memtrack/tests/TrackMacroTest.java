@@ -8,6 +8,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.IntStream;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -28,7 +29,7 @@ class TrackMacroTest {
     static void makeAFilm() throws Exception {
         Path unusual = Files.createDirectories(folder.resolve("films [1] ü 细菌"));
         film = unusual.resolve("swimmers.tif");
-        Python.simulate(film, 5, 40, 300, 240);
+        SwimmersFilm.save(film, 40, 300, 240);
     }
 
     @Test
@@ -40,10 +41,12 @@ class TrackMacroTest {
         assertThat(outcome.aborted()).isFalse();
         RunFiles files = new RunFiles(output, "swimmers");
         files.checkThatAllAgree();
-        assertThat(files.tracks()).hasSizeGreaterThan(3).allSatisfy(track -> {
-            assertThat(track.get("motility")).isNotBlank();
-            assertThat(Integer.parseInt(track.get("last_frame"))).isLessThan(40);
-        });
+        assertThat(files.tracks())
+                .hasSize(SwimmersFilm.SWIMMERS)
+                .allSatisfy(track -> assertThat(track.get("motility")).isEqualTo("high"));
+        assertThat(files.points())
+                .allSatisfy(
+                        point -> assertThat(distanceToTheNearestSwimmer(point)).isLessThan(3));
         assertThat(files.provenance())
                 .contains("\"min_length\": \"15\"")
                 .contains("\"pixel_size_um\": 0.25")
@@ -94,7 +97,8 @@ class TrackMacroTest {
 
         assertThat(outcome.aborted()).isFalse();
         assertThat(outcome.log())
-                .containsPattern("0 tracks from 0 detections above 1.00; [1-9][0-9]* between 0.05 and the threshold")
+                .containsPattern(
+                        "0 tracks from 0 detections above 1.00; [1-9][0-9]* between 0\\.[0-9]{2} and the threshold")
                 .contains("lower the thresholds")
                 .contains("pixel size and no frame interval");
         new RunFiles(output, "swimmers").checkThatAllAgree();
@@ -159,7 +163,7 @@ class TrackMacroTest {
         assertThat(outcome.log()).contains("0.02000 s, is taken from the film's playback rate");
         RunFiles files = new RunFiles(output, "swimmers [3]");
         files.checkThatAllAgree();
-        assertThat(files.tracks()).hasSizeGreaterThan(3);
+        assertThat(files.tracks()).hasSize(SwimmersFilm.SWIMMERS);
     }
 
     @Test
@@ -176,5 +180,16 @@ class TrackMacroTest {
         files.checkThatAllAgree();
         // About 24 bacteria a frame, most of them in view for 30 frames or more.
         assertThat(files.tracks()).hasSizeBetween(12, 60);
+    }
+
+    private static double distanceToTheNearestSwimmer(Map<String, String> point) {
+        int frame = Integer.parseInt(point.get("frame"));
+        double x = Double.parseDouble(point.get("x"));
+        double y = Double.parseDouble(point.get("y"));
+        return IntStream.range(0, SwimmersFilm.SWIMMERS)
+                .mapToDouble(swimmer -> Math.hypot(
+                        x - SwimmersFilm.x(swimmer, frame, 40, 300), y - SwimmersFilm.y(swimmer, frame, 240)))
+                .min()
+                .orElseThrow();
     }
 }
