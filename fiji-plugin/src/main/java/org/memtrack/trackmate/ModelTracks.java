@@ -6,6 +6,7 @@ import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.TrackMate;
 import fiji.plugin.trackmate.TrackModel;
 import ij.ImagePlus;
+import ij.measure.Calibration;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -23,6 +24,7 @@ import org.memtrack.video.FilmInfo;
 import org.memtrack.video.FilmOptions;
 import org.memtrack.video.FrameAxis;
 import org.memtrack.video.ImageFilm;
+import org.memtrack.video.Units;
 
 /**
  * The visible tracks of a TrackMate model as ours, whichever detector, tracker or hand made them.
@@ -45,7 +47,7 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
         if (image == null) {
             throw new DetectorException("These tracks have no film: open it, then load the TrackMate file again.");
         }
-        ImageFilm film = new ImageFilm(image, options(settings));
+        ImageFilm film = new ImageFilm(image, options(trackmate));
         TrackModel model = trackmate.getModel().getTrackModel();
         List<Track> tracks = new ArrayList<>();
         List<String> names = new ArrayList<>();
@@ -74,16 +76,24 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
         return new ModelTracks(TrackedFilm.of(film.info(), tracks, List.of()), film, names, notes);
     }
 
-    private static FilmOptions options(Settings settings) {
+    /** As the tracks were made: a film that was opened from a TrackMate file may have lost its calibration and axes. */
+    private static FilmOptions options(TrackMate trackmate) {
+        Settings settings = trackmate.getSettings();
+        Calibration calibration = new Calibration();
+        calibration.pixelWidth = settings.dx;
+        calibration.pixelHeight = settings.dy;
+        calibration.setUnit(trackmate.getModel().getSpaceUnits());
+        calibration.frameInterval = settings.dt;
+        calibration.setTimeUnit(trackmate.getModel().getTimeUnits());
         Map<String, Object> detector = settings.detectorSettings;
         Object channel = detector == null ? null : detector.get(DetectorSettings.CHANNEL);
         return new FilmOptions(
-                FrameAxis.T,
+                ImageFilm.framesLieOnZ(settings.imp) ? FrameAxis.Z : FrameAxis.T,
                 channel instanceof Integer number && number <= settings.imp.getNChannels() ? Math.max(1, number) : 1,
                 1,
                 0,
-                FilmOptions.DEFAULTS.pixelSizeMicrometres(),
-                FilmOptions.DEFAULTS.frameIntervalSeconds());
+                Units.pixelSizeMicrometres(calibration),
+                Units.frameIntervalSeconds(calibration));
     }
 
     private static Track track(int id, List<Spot> spots, Settings settings) {

@@ -103,6 +103,22 @@ class MainJobXmlTest {
                         model.getFeatureModel().getEdgeFeature(edge, "LINK_COST"))
                 .isBetween(0.0, 1.0));
 
+        TmXmlReader calibrating = new TrackMateWindow.CalibratingReader(xml.toFile());
+        calibrating.getModel();
+        ImagePlus calibrated = calibrating.readImage();
+        assertThat(calibrated.getCalibration().pixelWidth).isEqualTo(1);
+        assertThat(calibrated.getNFrames()).isEqualTo(60);
+        calibrating.readSettings(calibrated);
+        assertThat(calibrated.getCalibration().pixelWidth).isCloseTo(PIXEL_SIZE, within(1e-9));
+        assertThat(calibrated.getCalibration().frameInterval).isCloseTo(INTERVAL, within(1e-9));
+
+        // TrackMate's own reader leaves the film as its file has it; our actions take the tracks' word for it.
+        ModelTracks ours = ModelTracks.of(new TrackMate(model, read));
+        assertThat(ours.info().frameCount()).isEqualTo(60);
+        assertThat(ours.info().pixelSizeMicrometres().orElseThrow()).isCloseTo(PIXEL_SIZE, within(1e-9));
+        assertThat(ours.tracked().tracks()).hasSameSizeAs(tracks);
+        assertThat(MotilityAction.table(ours).size()).isEqualTo(tracks.size());
+
         read.addAllAnalyzers();
         TrackMate trackmate = new TrackMate(model, read);
         assertThat(trackmate.computeSpotFeatures(false) && trackmate.computeEdgeFeatures(false)

@@ -17,4 +17,12 @@ public class Model {
     public TrackModel getTrackModel() {
         throw new UnsupportedOperationException();
     }
+
+    public String getSpaceUnits() {
+        throw new UnsupportedOperationException();
+    }
+
+    public String getTimeUnits() {
+        throw new UnsupportedOperationException();
+    }
 }
