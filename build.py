@@ -64,7 +64,7 @@ def run_track(film: Path | None, output: Path, options: str) -> None:
         film = output / "simulated-film" / "collagen.tif"
         film.parent.mkdir(exist_ok=True)
         step(f"Simulating a film of bacteria in collagen, with its true tracks beside it: {film}")
-        run(PYTHON, "-m", "memtrack", "simulate", "--family", "collagen", film)
+        run(PYTHON, "-m", "memtrack", "simulate", "--family", "collagen", "--seed", "8", film)
     step(f"Tracking {film} in headless ImageJ")
     classpath = (ROOT / "tests/target/classpath.txt").read_text(encoding="utf-8").strip()
     run(
