@@ -78,7 +78,8 @@ def run_track(film: Path | None, output: Path, options: str) -> None:
         film.resolve(),
         output,
         options,
-        environment={"MEMTRACK_PYTHON": str(PYTHON)},
+        # In the plain "C" locale Java cannot name a file with an umlaut.
+        environment={"MEMTRACK_PYTHON": str(PYTHON), "LC_ALL": os.environ.get("LC_ALL") or os.environ.get("LANG") or "C.UTF-8"},
     )
 
 
