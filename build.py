@@ -79,7 +79,10 @@ def run_track(film: Path | None, output: Path, options: str) -> None:
         output,
         options,
         # In the plain "C" locale Java cannot name a file with an umlaut.
-        environment={"MEMTRACK_PYTHON": str(PYTHON), "LC_ALL": os.environ.get("LC_ALL") or os.environ.get("LANG") or "C.UTF-8"},
+        environment={
+            "MEMTRACK_PYTHON": str(PYTHON),
+            "LC_ALL": os.environ.get("LC_ALL") or os.environ.get("LANG") or "C.UTF-8",
+        },
     )
 
 
@@ -114,7 +117,9 @@ def install_server(extras: str) -> None:
             venv.create(VENV, with_pip=True)
         except subprocess.CalledProcessError:
             shutil.rmtree(VENV, ignore_errors=True)
-            sys.exit("Python cannot make a virtual environment; on Debian and Ubuntu, install the package python3-venv.")
+            sys.exit(
+                "Python cannot make a virtual environment; on Debian and Ubuntu, install the package python3-venv."
+            )
     run(PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable", f"{SERVER}{extras}")
     stamp.write_text(wanted, encoding="utf-8")
 
