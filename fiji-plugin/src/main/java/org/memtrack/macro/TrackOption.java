@@ -73,6 +73,18 @@ public enum TrackOption {
             Kind.INTEGER,
             "",
             "shorter tracks are dropped; the preset's, or half a short film, if left out"),
+    MIN_LENGTH_AT_EDGE(
+            "min_length_at_edge",
+            "Least length at the edge (frames)",
+            Kind.INTEGER,
+            "",
+            "likewise for tracks that begin or end at the edge of the field; min_length, or half the preset's, if left out"),
+    MIN_SCORE(
+            "min_score",
+            "Least track score",
+            Kind.NUMBER,
+            String.valueOf(SortSettings.DEFAULTS.filter().minimumScore()),
+            "least mean score of a track's frames, 0 to 1, an interpolated frame counting as 0; 0 as in the paper"),
     MAX_AGE(
             "max_age",
             "Maximum age (frames)",

@@ -17,6 +17,7 @@ import org.memtrack.server.ServerSettings;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.TrackFilter;
 import org.memtrack.video.FilmOptions;
 import org.memtrack.video.FrameAxis;
 
@@ -64,10 +65,15 @@ public record TrackRequest(
     public TrackingSettings settingsFor(int frameCount) {
         SortSettings tracking = settings.tracking();
         int longest = Math.max(1, frameCount / 2);
-        if (options.containsKey(MIN_LENGTH.key()) || tracking.minimumTrackLength() <= longest) {
+        TrackFilter filter = tracking.filter();
+        if (options.containsKey(MIN_LENGTH.key()) || filter.minimumLength() <= longest) {
             return settings;
         }
-        return new TrackingSettings(settings.detection(), tracking.withMinimumTrackLength(longest), settings.server());
+        int atEdge = options.containsKey(MIN_LENGTH_AT_EDGE.key())
+                ? filter.minimumLengthAtEdge()
+                : TrackFilter.upTo(longest).minimumLengthAtEdge();
+        TrackFilter shorter = new TrackFilter(longest, atEdge, filter.minimumScore());
+        return new TrackingSettings(settings.detection(), tracking.with(shorter), settings.server());
     }
 
     private static FilmOptions film(OptionValues values) {
@@ -115,7 +121,16 @@ public record TrackRequest(
                 values.integer(MAX_AGE).orElse(preset.maximumAge()),
                 values.integer(MIN_HITS).orElse(preset.minimumHits()),
                 Interpolation.values()[values.choice(INTERPOLATION)],
-                values.integer(MIN_LENGTH).orElse(preset.minimumTrackLength()));
+                filter(values, preset.filter()));
+    }
+
+    private static TrackFilter filter(OptionValues values, TrackFilter preset) {
+        // Who asks for a length gets no shorter track, at the edge neither.
+        return new TrackFilter(
+                values.integer(MIN_LENGTH).orElse(preset.minimumLength()),
+                values.integer(MIN_LENGTH_AT_EDGE)
+                        .orElse(values.integer(MIN_LENGTH).orElse(preset.minimumLengthAtEdge())),
+                values.number(MIN_SCORE).orElse(preset.minimumScore()));
     }
 
     private static ServerSettings server(OptionValues values) {

@@ -12,6 +12,7 @@ import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.TrackedFilm;
 import org.memtrack.server.ServerConnection;
 import org.memtrack.server.Servers;
+import org.memtrack.tracking.Field;
 import org.memtrack.tracking.SortTracker;
 import org.memtrack.tracking.Track;
 import org.memtrack.video.Film;
@@ -35,14 +36,15 @@ public final class TrackingRun {
     public static TrackingResult run(Film film, TrackingSettings settings, Progress progress) {
         try (ServerConnection connection = Servers.acquire(settings.server(), progress)) {
             DetectionResult detection = connection.detect(film, settings.detection(), progress.between(0, DETECTED));
+            FilmInfo info = wholeFilm(film);
             Progress rest = progress.between(DETECTED, 1);
             List<FrameDetections> frames = asNumberedInTheImage(detection.frames(), film.firstFrame());
-            List<Track> tracks = new SortTracker(settings.tracking())
+            List<Track> tracks = new SortTracker(settings.tracking(), new Field(info.width(), info.height()))
                     .track(
                             frames,
                             fraction -> rest.report("Tracking", fraction, OptionalDouble.empty(), ""),
                             progress::cancelled);
-            TrackedFilm tracked = TrackedFilm.of(wholeFilm(film), tracks, frames);
+            TrackedFilm tracked = TrackedFilm.of(info, tracks, frames);
             List<String> warnings = new ArrayList<>(detection.accepted().warnings());
             if (tracks.isEmpty()) {
                 warnings.add(noTracks(detection, settings));
@@ -54,8 +56,10 @@ public final class TrackingRun {
     private static String noTracks(DetectionResult detection, TrackingSettings settings) {
         return detection.summary().kept() == 0
                 ? "Nothing was detected: lower the thresholds, choose maximum F1, or check that the model fits the film."
-                : "No track is as long as %d frames: lower min_length."
-                        .formatted(settings.tracking().minimumTrackLength());
+                : "No track is as long as %d frames and as sure as %s: lower min_length or min_score."
+                        .formatted(
+                                settings.tracking().filter().minimumLength(),
+                                settings.tracking().filter().minimumScore());
     }
 
     private static List<FrameDetections> asNumberedInTheImage(List<FrameDetections> frames, int firstFrame) {

@@ -12,8 +12,7 @@ package org.memtrack.tracking;
  * @param minimumHits detections a track needs, at least 0 (paper section "Interpolated Tracker"). {@code AUTHORS}: points
  *     are reported only after that many consecutive ones, as in SORT; {@code FILL_GAPS}: a track with fewer is dropped
  * @param interpolation what stands in a track where no detection was found
- * @param minimumTrackLength frames a track must span, interpolated ones included, at least 1; shorter ones are dropped
- *     (paper section "Track Length Filter": 60 in collagen, 30 in water)
+ * @param filter which tracks are kept (paper section "Track Length Filter": at least 60 frames in collagen, 30 in water)
  */
 public record SortSettings(
         Association association,
@@ -21,14 +20,14 @@ public record SortSettings(
         int maximumAge,
         int minimumHits,
         Interpolation interpolation,
-        int minimumTrackLength) {
+        TrackFilter filter) {
 
-    /** Films in collagen and other dense media, where swimmers are slow: tracks of at least 60 frames. */
+    /** Films in collagen and other dense media, where swimmers are slow: tracks of 60 frames. */
     public static final SortSettings COLLAGEN =
-            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, 60);
+            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.upTo(60));
 
-    /** Films in water, where swimmers soon leave the focal plane: tracks of at least 30 frames. */
-    public static final SortSettings WATER = COLLAGEN.withMinimumTrackLength(30);
+    /** Films in water, where swimmers soon leave the focal plane: tracks of 30 frames. */
+    public static final SortSettings WATER = COLLAGEN.with(TrackFilter.upTo(30));
 
     public static final SortSettings DEFAULTS = COLLAGEN;
 
@@ -38,11 +37,11 @@ public record SortSettings(
         }
         requireAtLeast("maximum age", 0, maximumAge);
         requireAtLeast("minimum hits", 0, minimumHits);
-        requireAtLeast("minimum track length", 1, minimumTrackLength);
     }
 
-    public SortSettings withMinimumTrackLength(int frames) {
-        return new SortSettings(association, iouGate, maximumAge, minimumHits, interpolation, frames);
+    /** The same settings with another filter. */
+    public SortSettings with(TrackFilter newFilter) {
+        return new SortSettings(association, iouGate, maximumAge, minimumHits, interpolation, newFilter);
     }
 
     private static void requireAtLeast(String name, int least, int value) {

@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.concurrent.CancellationException;
 import java.util.function.BooleanSupplier;
 import java.util.function.DoubleConsumer;
+import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.FrameDetections;
 
 /**
@@ -15,9 +16,21 @@ import org.memtrack.detection.FrameDetections;
  */
 public final class SortTracker {
     private final SortSettings settings;
+    private final @Nullable Field field;
 
+    /** For detections of which it is not known where the field ends. */
     public SortTracker(SortSettings settings) {
+        this(settings, null);
+    }
+
+    /**
+     * For the detections of a film.
+     *
+     * @param field what the film shows; null when not known
+     */
+    public SortTracker(SortSettings settings, @Nullable Field field) {
         this.settings = settings;
+        this.field = field;
     }
 
     /** Tracks of a film; as {@link #track(List, DoubleConsumer, BooleanSupplier)}, not to be stopped. */
@@ -73,7 +86,7 @@ public final class SortTracker {
         List<List<TrackPoint>> kept = tracklets.stream()
                 .filter(this::hasHitsEnough)
                 .map(this::pointsOf)
-                .filter(this::isLongEnough)
+                .filter(points -> !points.isEmpty() && settings.filter().keeps(points, field))
                 .sorted(Comparator.comparingInt(points -> points.get(0).frame()))
                 .toList();
         List<Track> tracks = new ArrayList<>();
@@ -92,10 +105,5 @@ public final class SortTracker {
             case FILL_GAPS -> GapFilling.fill(tracklet.points());
             case AUTHORS -> tracklet.points();
         };
-    }
-
-    private boolean isLongEnough(List<TrackPoint> points) {
-        return !points.isEmpty()
-                && points.get(points.size() - 1).frame() - points.get(0).frame() + 1 >= settings.minimumTrackLength();
     }
 }

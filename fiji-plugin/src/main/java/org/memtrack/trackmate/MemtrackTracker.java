@@ -14,9 +14,11 @@ import java.util.concurrent.CancellationException;
 import org.jgrapht.graph.DefaultWeightedEdge;
 import org.jgrapht.graph.SimpleWeightedGraph;
 import org.jspecify.annotations.Nullable;
+import org.memtrack.tracking.Field;
 import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.SortTracker;
 import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackFilter;
 import org.scijava.Cancelable;
 
 /**
@@ -74,10 +76,11 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
     private void track(SortSettings sort) {
         SpotFilm film = SpotFilm.of(spots, image);
         // The length filter is applied here, so that the user learns how much it drops.
-        List<Track> all = new SortTracker(sort.withMinimumTrackLength(1))
+        List<Track> all = new SortTracker(sort.with(TrackFilter.ofLength(1)))
                 .track(film.frames(), logger::setProgress, this::isCanceled);
+        Field field = image == null ? null : new Field(image.getWidth(), image.getHeight());
         List<Track> kept = new ArrayList<>(all);
-        kept.removeIf(track -> track.length() < sort.minimumTrackLength());
+        kept.removeIf(track -> !sort.filter().keeps(track.points(), field));
 
         film.removeInterpolated();
         TrackGraph built = TrackGraph.of(kept, film);
@@ -87,16 +90,15 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
 
         logger.log(String.format(
                 Locale.ROOT,
-                "%d tracks of at least %d frames, with %d interpolated spots; %d shorter ones were dropped.%n",
+                "%d tracks kept, with %d interpolated spots; %d too short or of too low a score were dropped.%n",
                 kept.size(),
-                sort.minimumTrackLength(),
                 built.interpolated().size(),
                 all.size() - kept.size()));
         if (kept.isEmpty() && !all.isEmpty()) {
             int longest = all.stream().mapToInt(Track::length).max().orElse(0);
             logger.log(String.format(
                     Locale.ROOT,
-                    "The longest track has %d frames: lower the least track length to see it.%n",
+                    "The longest track has %d frames: lower the least track length or score to see it.%n",
                     longest));
         }
     }

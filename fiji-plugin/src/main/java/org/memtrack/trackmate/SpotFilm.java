@@ -15,7 +15,6 @@ import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
-import org.memtrack.detection.Level;
 import org.memtrack.formats.SpotFeature;
 
 /** The observed spots of a collection as detections, in pixels, and the way back. */
@@ -68,7 +67,7 @@ final class SpotFilm {
                 Detection detection = new Detection(
                         Spots.box(spot, pixelWidth, pixelHeight),
                         Spots.value(spot, Spot.QUALITY, 0),
-                        Level.UNSPECIFIED);
+                        SpotFeature.levelOf(Spots.value(spot, SpotFeature.LEVEL.key(), 0)));
                 spotOf.put(detection, spot);
                 detections.add(detection);
             }

@@ -21,6 +21,8 @@ final class TrackerPanel extends ConfigurationPanel {
     private final JSpinner minimumHits = Form.whole(0, 0, 100_000);
     private final JComboBox<Choice<Interpolation>> interpolation = new JComboBox<>(Choice.INTERPOLATIONS);
     private final JSpinner minimumTrackLength = Form.whole(60, 1, 1_000_000);
+    private final JSpinner minimumTrackLengthAtEdge = Form.whole(30, 1, 1_000_000);
+    private final JSpinner minimumTrackScore = Form.number(0.4, 0, 1, 0.05);
 
     TrackerPanel(@Nullable ImagePlus image) {
         Form form = new Form(this);
@@ -52,6 +54,15 @@ final class TrackerPanel extends ConfigurationPanel {
                 "Least track length (frames)",
                 minimumTrackLength,
                 "Shorter tracks are dropped, interpolated frames counted; 60 in collagen and 30 in water in the paper.");
+        form.row(
+                "Least length at the edge",
+                minimumTrackLengthAtEdge,
+                "The same for tracks that begin or end at the edge of the film, which cuts them short.");
+        form.row(
+                "Least track score",
+                minimumTrackScore,
+                "Mean quality of a track's frames, an interpolated one counting as 0; asked of spots of the MEMTrack"
+                        + " detector only. 0 as in the paper.");
         if (image != null && image.getNFrames() > 1) {
             form.sentence("This film has %d frames.".formatted(image.getNFrames()));
         }
@@ -68,6 +79,8 @@ final class TrackerPanel extends ConfigurationPanel {
         minimumHits.setValue(settings.get(TrackerSettings.MINIMUM_HITS));
         Choice.select(interpolation, settings.get(TrackerSettings.INTERPOLATION));
         minimumTrackLength.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH));
+        minimumTrackLengthAtEdge.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH_AT_EDGE));
+        minimumTrackScore.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_SCORE));
     }
 
     @Override
@@ -79,6 +92,8 @@ final class TrackerPanel extends ConfigurationPanel {
         settings.put(TrackerSettings.MINIMUM_HITS, minimumHits.getValue());
         settings.put(TrackerSettings.INTERPOLATION, Choice.selected(interpolation));
         settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH, minimumTrackLength.getValue());
+        settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH_AT_EDGE, minimumTrackLengthAtEdge.getValue());
+        settings.put(TrackerSettings.MINIMUM_TRACK_SCORE, ((Number) minimumTrackScore.getValue()).doubleValue());
         return settings;
     }
 

@@ -10,6 +10,7 @@ import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.TrackFilter;
 
 /** The tracker's settings as TrackMate keeps them; keys never change, since files hold them. */
 final class TrackerSettings {
@@ -19,6 +20,8 @@ final class TrackerSettings {
     static final String MINIMUM_HITS = "MINIMUM_HITS";
     static final String INTERPOLATION = "INTERPOLATION";
     static final String MINIMUM_TRACK_LENGTH = "MINIMUM_TRACK_LENGTH";
+    static final String MINIMUM_TRACK_LENGTH_AT_EDGE = "MINIMUM_TRACK_LENGTH_AT_EDGE";
+    static final String MINIMUM_TRACK_SCORE = "MINIMUM_TRACK_SCORE";
 
     static final SettingsMap MAP = new SettingsMap(MemtrackTrackerFactory.NAME, toMap(SortSettings.DEFAULTS));
 
@@ -31,7 +34,9 @@ final class TrackerSettings {
         map.put(MAXIMUM_AGE, settings.maximumAge());
         map.put(MINIMUM_HITS, settings.minimumHits());
         map.put(INTERPOLATION, settings.interpolation().name());
-        map.put(MINIMUM_TRACK_LENGTH, settings.minimumTrackLength());
+        map.put(MINIMUM_TRACK_LENGTH, settings.filter().minimumLength());
+        map.put(MINIMUM_TRACK_LENGTH_AT_EDGE, settings.filter().minimumLengthAtEdge());
+        map.put(MINIMUM_TRACK_SCORE, settings.filter().minimumScore());
         return map;
     }
 
@@ -57,7 +62,10 @@ final class TrackerSettings {
                 (Integer) map.get(MAXIMUM_AGE),
                 (Integer) map.get(MINIMUM_HITS),
                 choice(Interpolation.class, INTERPOLATION, map),
-                (Integer) map.get(MINIMUM_TRACK_LENGTH));
+                new TrackFilter(
+                        (Integer) map.get(MINIMUM_TRACK_LENGTH),
+                        (Integer) map.get(MINIMUM_TRACK_LENGTH_AT_EDGE),
+                        (Double) map.get(MINIMUM_TRACK_SCORE)));
     }
 
     /** The constant that a setting names, in whatever case. */

@@ -66,8 +66,8 @@ public final class TrackCommand implements PlugIn {
             warnings.add(
                     "The film is short: tracks of %d frames are kept, not only those of %d; min_length sets another length."
                             .formatted(
-                                    settings.tracking().minimumTrackLength(),
-                                    request.settings().tracking().minimumTrackLength()));
+                                    settings.tracking().filter().minimumLength(),
+                                    request.settings().tracking().filter().minimumLength()));
         }
         warnings.addAll(result.warnings());
         files.write(result, film, Origin.of(film, result, request.options(), warnings));

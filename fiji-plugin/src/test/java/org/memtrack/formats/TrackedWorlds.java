@@ -12,6 +12,7 @@ import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.SortTracker;
 import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackFilter;
 import org.memtrack.video.FilmInfo;
 
 /** Tracked films to write and read back. */
@@ -32,7 +33,8 @@ final class TrackedWorlds {
                 50,
                 calibrated ? OptionalDouble.of(0.2475) : OptionalDouble.empty(),
                 calibrated ? OptionalDouble.of(1 / 60.0) : OptionalDouble.empty());
-        SortSettings settings = new SortSettings(Association.MOTION, 0.05, 8, 0, interpolation, 5);
+        SortSettings settings =
+                new SortSettings(Association.MOTION, 0.05, 8, 0, interpolation, TrackFilter.ofLength(5));
         List<Track> tracks = new SortTracker(settings).track(world.frames());
         return new TrackedWorld(TrackedFilm.of(film, tracks, world.frames()), world.frames());
     }

@@ -63,7 +63,7 @@ class SortConformanceTest {
                 world.maximumAge(),
                 world.minimumHits(),
                 Interpolation.AUTHORS,
-                1);
+                TrackFilter.ofLength(1));
 
         List<Track> tracks = new SortTracker(settings).track(frames);
 

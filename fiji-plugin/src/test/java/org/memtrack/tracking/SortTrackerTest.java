@@ -25,7 +25,7 @@ class SortTrackerTest {
     private static final int MAXIMUM_AGE = 5;
 
     private static SortSettings settings(Association association, Interpolation interpolation) {
-        return new SortSettings(association, 0.05, MAXIMUM_AGE, 0, interpolation, 1);
+        return new SortSettings(association, 0.05, MAXIMUM_AGE, 0, interpolation, TrackFilter.ofLength(1));
     }
 
     private static List<Track> track(List<FrameDetections> frames) {
@@ -95,7 +95,7 @@ class SortTrackerTest {
 
     @Test
     void tracksShorterThanTheLeastLengthAreDropped() {
-        SortSettings least = SortSettings.DEFAULTS.withMinimumTrackLength(4);
+        SortSettings least = SortSettings.DEFAULTS.with(TrackFilter.ofLength(4));
 
         assertThat(new SortTracker(least).track(swimmerSeenIn(0, 1, 2))).isEmpty();
         assertThat(new SortTracker(least).track(swimmerSeenIn(0, 1, 3))).hasSize(1);
@@ -103,7 +103,8 @@ class SortTrackerTest {
 
     @Test
     void tracksOfFewerThanMinimumHitsAreDropped() {
-        SortSettings hits = new SortSettings(Association.MOTION, 0.05, 25, 3, Interpolation.FILL_GAPS, 1);
+        SortSettings hits =
+                new SortSettings(Association.MOTION, 0.05, 25, 3, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
 
         assertThat(new SortTracker(hits).track(swimmerSeenIn(0, 4))).isEmpty();
         assertThat(new SortTracker(hits).track(swimmerSeenIn(0, 2, 4))).hasSize(1);
@@ -200,8 +201,10 @@ class SortTrackerTest {
     @Test
     void associationByMotionSwitchesBetweenSwimmersLessThanTheOneByOverlap() {
         RandomWorld.Settings crowd = TrackingBenchmark.WORLDS.get("crowd");
-        SortSettings byMotion = new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, 1);
-        SortSettings byOverlap = new SortSettings(Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, 1);
+        SortSettings byMotion =
+                new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
+        SortSettings byOverlap =
+                new SortSettings(Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
         int motion = 0;
         int overlap = 0;
         for (int seed = 100; seed < 102; seed++) {

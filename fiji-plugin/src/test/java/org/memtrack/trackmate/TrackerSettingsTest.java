@@ -8,10 +8,11 @@ import org.junit.jupiter.api.Test;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.TrackFilter;
 
 class TrackerSettingsTest {
     private static final SortSettings OTHERS =
-            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, 13);
+            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, TrackFilter.ofLength(13));
 
     @Test
     void settingsSurviveTheMap() {
