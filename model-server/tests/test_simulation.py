@@ -65,12 +65,32 @@ def test_truth_follows_the_drift() -> None:
     assert set(made.truth.motility) == {Motility.NONE}
 
 
-def test_a_stuck_cell_is_no_truth_to_find_and_a_bright_swimmer_is() -> None:
-    stuck = simulate(replace(QUIET, gaits=(Gait.STUCK,) * 12, looks=(LOOK,) * 12), 3)
-    assert len(stuck.truth) > 0
-    assert stuck.truth.ignored.all()
-    swimming = simulate(replace(QUIET, gaits=(Gait.SWIMMING,) * 12, looks=(LOOK,) * 12, depth_spread=0.1), 3)
-    assert swimming.truth.ignored.mean() < 0.3
+def test_a_stuck_cell_is_no_truth_to_find_and_a_bright_swimmer_is_while_its_centre_is_in_the_field() -> None:
+    shaking = replace(QUIET, jitter=0.5, gaits=(Gait.STUCK,) * 12, looks=(LOOK,) * 12)
+    stuck = simulate(shaking, 3).truth
+    assert len(stuck) > 0
+    assert stuck.ignored.all()
+    swimming = simulate(replace(QUIET, gaits=(Gait.SWIMMING,) * 40, looks=(LOOK,) * 40, depth_spread=0.1), 3).truth
+    outside = (swimming.x < -0.5) | (swimming.x > 159.5) | (swimming.y < -0.5) | (swimming.y > 119.5)
+    assert outside.any()
+    assert swimming.ignored[outside].all()
+    assert swimming.ignored[~outside].mean() < 0.3
+
+
+def test_what_is_too_faint_to_find_does_not_depend_on_the_stage() -> None:
+    recipe = replace(QUIET, read_noise=8.0, gaits=(Gait.TRAPPED,) * 12, looks=(LOOK,) * 12)
+    still, shaking = simulate(recipe, 5).truth, simulate(replace(recipe, jitter=0.4), 5).truth
+    verdicts = [
+        {(t.frames[k], t.ids[k]): t.ignored[k] for k in range(len(t)) if _well_in(t.x[k], t.y[k])}
+        for t in (still, shaking)
+    ]
+    both = verdicts[0].keys() & verdicts[1].keys()
+    assert {verdicts[0][row] for row in both} == {True, False}
+    assert all(verdicts[0][row] == verdicts[1][row] for row in both)
+
+
+def _well_in(x: float, y: float) -> bool:
+    return 3 < x < 157 and 3 < y < 117
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import cv2
@@ -18,9 +19,11 @@ from memtrack.simulation.swimming import Gait, Path, World, peak_diffusivity, sw
 from memtrack.tracks import TrackTable
 
 BOX_PX = 30.0
-VISIBLE = 7.0
+VISIBLE = 5.5
 """Smallest contrast of a bacterium with its own temporal median, summed over its pixels in units of the noise, at which
 its box counts as truth; below it the row is marked as ignored, neither right nor wrong to find."""
+RIM_PX = 8.0
+"""How far outside the field a bacterium's centre may lie and still show enough to be found, so that it is ignored."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,30 +104,38 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
         recipe.depth_spread,
     )
     paths = [swim(gait, world, rng) for gait in recipe.gaits]
-    layers = _bacteria(recipe, paths, drift)
+    layers = _bacteria(recipe, paths, drift, range(n))
     scene = _Scene(recipe, drift, rng)
     lamp = 1 + recipe.flicker * rng.standard_normal(n)
     lamp *= 1 + recipe.lamp_drift * np.sin(np.linspace(0, rng.uniform(1, 6), n) + rng.uniform(0, 6))
     frames = np.stack([_expose(recipe, scene.frame(i) + layers[i], lamp[i], rng) for i in range(n)])
     calibration = Calibration(recipe.pixel_size_um, recipe.frame_interval_seconds)
-    truth = _truth(recipe, paths, layers, drift, calibration)
+    truth = _truth(recipe, paths, drift, calibration)
     return SimulatedFilm(ArrayFilm(frames, calibration), truth, drift, recipe)
 
 
-def _bacteria(recipe: Recipe, paths: list[Path], drift: np.ndarray) -> Float32[np.ndarray, "frame h w"]:
-    layers = np.zeros((recipe.frames, recipe.height, recipe.width), np.float32)
+def _bacteria(
+    recipe: Recipe, paths: list[Path], drift: np.ndarray, chosen: Sequence[int], pad: int = 0
+) -> Float32[np.ndarray, "frame h w"]:
+    """What bacteria add to each chosen frame, on a canvas with `pad` pixels more on each side."""
+    layers = np.zeros((len(chosen), recipe.height + 2 * pad, recipe.width + 2 * pad), np.float32)
     for path, look in zip(paths, recipe.looks, strict=True):
-        steps = np.diff(path.xy, axis=0, append=path.xy[-1:])
-        for i in range(recipe.frames):
-            x, y = path.xy[i] + drift[i]
-            smear = recipe.shutter * steps[i]
-            if np.abs(smear).max() < 1:
-                draw(layers[i], look, x, y, path.heading[i], path.depth[i])
-                continue
-            part = replace(look, contrast=look.contrast / 3)
-            for share in (-1 / 3, 0, 1 / 3):
-                draw(layers[i], part, x + share * smear[0], y + share * smear[1], path.heading[i], path.depth[i])
+        for layer, i in zip(layers, chosen, strict=True):
+            _draw(layer, recipe, path, look, i, drift[i] + pad)
     return layers
+
+
+def _draw(layer: np.ndarray, recipe: Recipe, path: Path, look: Look, i: int, offset: np.ndarray) -> None:
+    """Adds one bacterium as it is in frame `i`, moved by `offset`, smeared over the way it makes while the shutter is
+    open."""
+    x, y = path.xy[i] + offset
+    smear = recipe.shutter * (path.xy[min(i + 1, len(path.xy) - 1)] - path.xy[i])
+    if np.abs(smear).max() < 1:
+        draw(layer, look, x, y, path.heading[i], path.depth[i])
+        return
+    part = replace(look, contrast=look.contrast / 3)
+    for share in (-1 / 3, 0, 1 / 3):
+        draw(layer, part, x + share * smear[0], y + share * smear[1], path.heading[i], path.depth[i])
 
 
 class _Scene:
@@ -213,27 +224,29 @@ def _expose(recipe: Recipe, light: Float32[np.ndarray, "h w"], lamp: float, rng:
 
 
 def _truth(
-    recipe: Recipe,
-    paths: list[Path],
-    layers: Float32[np.ndarray, "frame h w"],
-    drift: Float64[np.ndarray, "frame 2"],
-    calibration: Calibration,
+    recipe: Recipe, paths: list[Path], drift: Float64[np.ndarray, "frame 2"], calibration: Calibration
 ) -> TrackTable:
-    """A row for each bacterium and frame in the field; motility by the diffusivity of its own path, without drift."""
-    still = _still_part(layers, drift)
+    """A row for each bacterium and frame in the field; motility by the diffusivity of its own path, without drift.
+
+    Ignored are those too faint, those that never move, which are part of the scene, and those whose centre lies
+    outside by less than `RIM_PX`, of which a part still shows.
+    """
     noise = float(np.hypot(recipe.read_noise, recipe.shot_noise * np.sqrt(recipe.level / 255)))
     noise = max(noise, 0.03 * recipe.texture, 0.3)
+    strengths = _strengths(recipe, paths)
+    edge = np.array([recipe.width, recipe.height]) - 0.5
     rows: list[tuple[int, int, float, float, int, bool]] = []
     for number, (path, look) in enumerate(zip(paths, recipe.looks, strict=True)):
         seen = path.xy + drift
-        inside = ((seen > -0.5) & (seen < np.array([recipe.width, recipe.height]) - 0.5)).all(axis=1)
+        near = ((seen > -0.5 - RIM_PX) & (seen < edge + RIM_PX)).all(axis=1)
+        inside = ((seen > -0.5) & (seen < edge)).all(axis=1)
+        known = inside & (strengths[number] >= VISIBLE * noise) & (path.gait is not Gait.STUCK)
         diffusivity = peak_diffusivity(path.xy * recipe.pixel_size_um, recipe.frame_interval_seconds)
         motility = int(motility_of(diffusivity))
-        for i in np.flatnonzero(inside):
-            strength = _strength(layers[i], still, seen[i], drift[i], look) / noise
+        for i in np.flatnonzero(near):
             dx, dy = apparent_centre(look, path.heading[i], path.depth[i])
             x, y = float(seen[i, 0]) + dx, float(seen[i, 1]) + dy
-            rows.append((int(i), number, x, y, motility, strength < VISIBLE))
+            rows.append((int(i), number, x, y, motility, not known[i]))
     columns = list(zip(*rows, strict=True)) if rows else [()] * 6
     return TrackTable.of(
         columns[0],
@@ -248,28 +261,21 @@ def _truth(
     )
 
 
-def _still_part(layers: np.ndarray, drift: np.ndarray) -> Float32[np.ndarray, "h w"]:
-    """What of the bacteria ends up in the temporal median, at the place of frame 0."""
-    chosen = np.unique(np.linspace(0, len(layers) - 1, 25).astype(int))
-    aligned = [_moved(layers[i], -drift[i]) for i in chosen]
-    still: np.ndarray = np.median(np.stack(aligned), axis=0).astype(np.float32)
-    return still
-
-
-def _moved(image: np.ndarray, shift: np.ndarray) -> Float32[np.ndarray, "h w"]:
-    matrix = np.array([[1, 0, shift[0]], [0, 1, shift[1]]], np.float32)
-    return np.asarray(cv2.warpAffine(image, matrix, image.shape[::-1]), np.float32)
-
-
-def _strength(layer: np.ndarray, still: np.ndarray, at: np.ndarray, drift: np.ndarray, look: Look) -> float:
-    """Root of the summed squares of the contrast with the median within about a core's length of the centre."""
-    reach = max(3, round(0.6 * look.length))
-    x, y = (int(v) for v in np.rint(at))
-    x0, y0 = (int(v) for v in np.rint(at - drift))
-    size = 2 * reach + 1
-    here = _patch(layer, x - reach, y - reach, size)
-    there = _patch(still, x0 - reach, y0 - reach, size)
-    return float(np.sqrt(np.square(here - there).sum()))
+def _strengths(recipe: Recipe, paths: list[Path]) -> Float64[np.ndarray, "bacterium frame"]:
+    """Root of the summed squares of each bacterium's contrast with the temporal median within about a core's length of
+    its centre, in grey levels; told on a stage that stands still, where nothing is resampled."""
+    pad, still_stage = round(RIM_PX), np.zeros((recipe.frames, 2))
+    chosen = np.unique(np.linspace(0, recipe.frames - 1, 25).astype(int))
+    median = np.median(_bacteria(recipe, paths, still_stage, [int(i) for i in chosen], pad), axis=0)
+    out = np.zeros((len(paths), recipe.frames))
+    for number, (path, look) in enumerate(zip(paths, recipe.looks, strict=True)):
+        reach = max(3, round(0.6 * look.length))
+        for i in range(recipe.frames):
+            left, top = (int(v) - reach for v in np.rint(path.xy[i]))
+            here = -_patch(median, left + pad, top + pad, 2 * reach + 1)
+            _draw(here, recipe, path, look, i, np.array([-left, -top]))
+            out[number, i] = np.sqrt(np.square(here).sum())
+    return out
 
 
 def _patch(image: Shaped[np.ndarray, "h w"], left: int, top: int, size: int) -> Float32[np.ndarray, "s s"]:
