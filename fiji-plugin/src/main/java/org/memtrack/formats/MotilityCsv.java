@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.formats;
 
-import java.io.BufferedWriter;
 import java.io.IOException;
-import java.io.OutputStream;
-import java.io.OutputStreamWriter;
-import java.io.Writer;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.OptionalDouble;
+import java.util.stream.IntStream;
 import org.memtrack.motility.TrackMotility;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
@@ -23,18 +19,12 @@ public final class MotilityCsv {
 
     /** Writes the motility of the tracks of a film, all or nothing. */
     public static void write(Path target, TrackedFilm tracked) throws IOException {
-        AtomicFiles.write(target, out -> write(tracked, out));
-    }
-
-    private static void write(TrackedFilm tracked, OutputStream out) throws IOException {
-        Writer writer = new BufferedWriter(new OutputStreamWriter(out, StandardCharsets.UTF_8));
-        writer.write(HEADER + "\n");
-        for (int i = 0; i < tracked.tracks().size(); i++) {
-            writer.write(String.join(
-                            ",",
-                            cells(tracked.tracks().get(i), tracked.motility().get(i))) + "\n");
-        }
-        writer.flush();
+        CsvFile.write(
+                target,
+                HEADER,
+                IntStream.range(0, tracked.tracks().size())
+                        .mapToObj(i -> cells(
+                                tracked.tracks().get(i), tracked.motility().get(i))));
     }
 
     private static List<String> cells(Track track, TrackMotility motility) {

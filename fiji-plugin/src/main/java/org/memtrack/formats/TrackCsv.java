@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.formats;
 
-import java.io.BufferedWriter;
 import java.io.IOException;
-import java.io.OutputStream;
-import java.io.OutputStreamWriter;
-import java.io.Writer;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
@@ -16,6 +11,8 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.TreeMap;
+import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.Level;
@@ -39,25 +36,17 @@ public final class TrackCsv {
 
     /** Writes the tracks of a film, all or nothing. */
     public static void write(Path target, TrackedFilm tracked) throws IOException {
-        AtomicFiles.write(target, out -> write(tracked, out));
+        CsvFile.write(
+                target,
+                HEADER,
+                IntStream.range(0, tracked.tracks().size()).boxed().flatMap(i -> rows(tracked, i)));
     }
 
-    private static void write(TrackedFilm tracked, OutputStream out) throws IOException {
-        Writer writer = new BufferedWriter(new OutputStreamWriter(out, StandardCharsets.UTF_8));
-        writer.write(HEADER + "\n");
-        for (int i = 0; i < tracked.tracks().size(); i++) {
-            Track track = tracked.tracks().get(i);
-            for (TrackPoint point : track.points()) {
-                writer.write(String.join(
-                                ",",
-                                cells(
-                                        tracked.film(),
-                                        track,
-                                        point,
-                                        tracked.motility().get(i))) + "\n");
-            }
-        }
-        writer.flush();
+    private static Stream<List<String>> rows(TrackedFilm tracked, int index) {
+        Track track = tracked.tracks().get(index);
+        return track.points().stream()
+                .map(point ->
+                        cells(tracked.film(), track, point, tracked.motility().get(index)));
     }
 
     private static List<String> cells(FilmInfo film, Track track, TrackPoint point, TrackMotility motility) {

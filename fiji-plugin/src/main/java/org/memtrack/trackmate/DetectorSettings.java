@@ -59,22 +59,15 @@ final class DetectorSettings {
 
     /** One sentence when the map is not usable; null when it is. */
     static @Nullable String check(@Nullable Map<String, Object> map) {
-        String problem = MAP.check(map);
-        if (problem != null || map == null) {
-            return problem;
-        }
-        try {
-            fromMap(map);
-            channel(map);
-            return null;
-        } catch (IllegalArgumentException e) {
-            return e.getMessage() + ".";
-        }
+        return MAP.check(map, settings -> {
+            fromMap(settings);
+            channel(settings);
+        });
     }
 
     /** @throws IllegalArgumentException when the map is not usable */
     static DetectionSettings fromMap(Map<String, Object> map) {
-        ThresholdSource source = TrackerSettings.choice(ThresholdSource.class, THRESHOLDS, map);
+        ThresholdSource source = SettingsMap.choice(ThresholdSource.class, THRESHOLDS, map);
         return new DetectionSettings(
                 ((String) map.get(MODEL)).trim(),
                 ((String) map.get(MODEL_VERSION)).trim(),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.trackmate;
 
-import fiji.plugin.trackmate.Logger;
 import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.SpotCollection;
 import fiji.plugin.trackmate.detection.SpotGlobalDetector;
@@ -11,7 +10,6 @@ import net.imagej.ImgPlus;
 import net.imglib2.Interval;
 import net.imglib2.type.NativeType;
 import net.imglib2.type.numeric.RealType;
-import org.jspecify.annotations.Nullable;
 import org.memtrack.client.DetectionResult;
 import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.ModelInUse;
@@ -22,14 +20,14 @@ import org.memtrack.detection.DetectorException;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.SpotFeature;
 import org.memtrack.server.ServerConnection;
-import org.scijava.Cancelable;
 
 /**
  * Sends the film to the server and turns its detections into spots.
  *
  * <p>The selection's outline is left to TrackMate, which drops spots outside of it; its bounds are told to the server.
  */
-final class MemtrackDetector<T extends RealType<T> & NativeType<T>> implements SpotGlobalDetector<T>, Cancelable {
+final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends StoppableModule
+        implements SpotGlobalDetector<T> {
     /** Where the server is had from. */
     interface Connector {
         ServerConnection acquire(Progress progress);
@@ -43,11 +41,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> implements S
     private final Connector connector;
 
     private SpotCollection spots = new SpotCollection();
-    private Logger logger = Logger.VOID_LOGGER;
-    private String errorMessage = "";
     private long processingTime;
-    private volatile boolean canceled;
-    private volatile @Nullable String cancelReason;
 
     MemtrackDetector(ImgPlus<T> image, Map<String, Object> settings, Interval interval, Connector connector) {
         this.image = image;
@@ -67,8 +61,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> implements S
                 problem = e.getMessage();
             }
         }
-        errorMessage = problem == null ? "" : problem;
-        return problem == null;
+        return isFine(problem);
     }
 
     @Override
@@ -81,8 +74,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> implements S
             // What TrackMate expects of a module that was stopped.
             return true;
         } catch (DetectorException | IllegalArgumentException e) {
-            errorMessage = e.getMessage();
-            return false;
+            return isFine(e.getMessage());
         } finally {
             processingTime = (System.nanoTime() - start) / 1_000_000;
             logger.setStatus("");
@@ -147,33 +139,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> implements S
     }
 
     @Override
-    public String getErrorMessage() {
-        return errorMessage;
-    }
-
-    @Override
     public long getProcessingTime() {
         return processingTime;
-    }
-
-    @Override
-    public void setLogger(Logger logger) {
-        this.logger = logger;
-    }
-
-    @Override
-    public boolean isCanceled() {
-        return canceled;
-    }
-
-    @Override
-    public void cancel(@Nullable String reason) {
-        cancelReason = reason;
-        canceled = true;
-    }
-
-    @Override
-    public @Nullable String getCancelReason() {
-        return cancelReason;
     }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.trackmate;
 
-import fiji.plugin.trackmate.Logger;
 import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.SpotCollection;
 import fiji.plugin.trackmate.tracking.SpotTracker;
@@ -19,23 +18,18 @@ import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.SortTracker;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackFilter;
-import org.scijava.Cancelable;
 
 /**
  * Tracks a collection of spots, and adds to it the spots it interpolates.
  *
  * <p>Spots that an earlier run interpolated are taken out; nothing is changed before the tracks are found.
  */
-final class MemtrackTracker implements SpotTracker, Cancelable {
+final class MemtrackTracker extends StoppableModule implements SpotTracker {
     private final SpotCollection spots;
     private final Map<String, Object> settings;
     private final @Nullable ImagePlus image;
 
     private SimpleWeightedGraph<Spot, DefaultWeightedEdge> graph = new SimpleWeightedGraph<>(DefaultWeightedEdge.class);
-    private Logger logger = Logger.VOID_LOGGER;
-    private String errorMessage = "";
-    private volatile boolean canceled;
-    private volatile @Nullable String cancelReason;
 
     MemtrackTracker(SpotCollection spots, Map<String, Object> settings, @Nullable ImagePlus image) {
         this.spots = spots;
@@ -55,8 +49,7 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
         if (problem == null && spots.getNSpots(true) == 0) {
             problem = "There is no visible spot to track: lower the detector's thresholds or loosen the spot filters.";
         }
-        errorMessage = problem == null ? "" : problem;
-        return problem == null;
+        return isFine(problem);
     }
 
     @Override
@@ -68,8 +61,7 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
             // What TrackMate expects of a module that was stopped.
             return true;
         } catch (IllegalArgumentException e) {
-            errorMessage = e.getMessage() + ".";
-            return false;
+            return isFine(e.getMessage() + ".");
         }
     }
 
@@ -106,32 +98,6 @@ final class MemtrackTracker implements SpotTracker, Cancelable {
     @Override
     public SimpleWeightedGraph<Spot, DefaultWeightedEdge> getResult() {
         return graph;
-    }
-
-    @Override
-    public String getErrorMessage() {
-        return errorMessage;
-    }
-
-    @Override
-    public void setLogger(Logger logger) {
-        this.logger = logger;
-    }
-
-    @Override
-    public boolean isCanceled() {
-        return canceled;
-    }
-
-    @Override
-    public void cancel(@Nullable String reason) {
-        cancelReason = reason;
-        canceled = true;
-    }
-
-    @Override
-    public @Nullable String getCancelReason() {
-        return cancelReason;
     }
 
     /** One thread does: SORT goes from frame to frame. */

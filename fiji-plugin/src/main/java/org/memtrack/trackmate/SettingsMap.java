@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.trackmate;
 
+import java.util.Arrays;
 import java.util.LinkedHashMap;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Set;
+import java.util.function.Consumer;
+import java.util.stream.Collectors;
 import org.jdom2.Attribute;
 import org.jdom2.Element;
 import org.jspecify.annotations.Nullable;
@@ -58,6 +62,36 @@ final class SettingsMap {
             }
         }
         return null;
+    }
+
+    /** The same, and one sentence when their values cannot be converted. */
+    @Nullable
+    String check(@Nullable Map<String, Object> settings, Consumer<Map<String, Object>> conversion) {
+        String problem = check(settings);
+        if (problem != null || settings == null) {
+            return problem;
+        }
+        try {
+            conversion.accept(settings);
+            return null;
+        } catch (IllegalArgumentException e) {
+            return e.getMessage() + ".";
+        }
+    }
+
+    /** The constant that a setting names, in whatever case. */
+    static <E extends Enum<E>> E choice(Class<E> type, String key, Map<String, Object> map) {
+        String name = String.valueOf(map.get(key));
+        try {
+            return Enum.valueOf(type, name.trim().toUpperCase(Locale.ROOT));
+        } catch (IllegalArgumentException e) {
+            throw new IllegalArgumentException(
+                    "The setting %s must be %s, not \"%s\"".formatted(key, names(type), name), e);
+        }
+    }
+
+    private static <E extends Enum<E>> String names(Class<E> type) {
+        return Arrays.stream(type.getEnumConstants()).map(Enum::name).collect(Collectors.joining(" or "));
     }
 
     /** Writes the settings as attributes; one sentence when they are not these settings, else null. */

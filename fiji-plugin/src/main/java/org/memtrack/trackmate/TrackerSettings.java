@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.trackmate;
 
-import java.util.Arrays;
 import java.util.LinkedHashMap;
-import java.util.Locale;
 import java.util.Map;
-import java.util.stream.Collectors;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
@@ -42,44 +39,20 @@ final class TrackerSettings {
 
     /** One sentence when the map is not usable; null when it is. */
     static @Nullable String check(@Nullable Map<String, Object> map) {
-        String problem = MAP.check(map);
-        if (problem != null || map == null) {
-            return problem;
-        }
-        try {
-            fromMap(map);
-            return null;
-        } catch (IllegalArgumentException e) {
-            return e.getMessage() + ".";
-        }
+        return MAP.check(map, TrackerSettings::fromMap);
     }
 
     /** @throws IllegalArgumentException when the map is not usable */
     static SortSettings fromMap(Map<String, Object> map) {
         return new SortSettings(
-                choice(Association.class, ASSOCIATION, map),
+                SettingsMap.choice(Association.class, ASSOCIATION, map),
                 (Double) map.get(IOU_GATE),
                 (Integer) map.get(MAXIMUM_AGE),
                 (Integer) map.get(MINIMUM_HITS),
-                choice(Interpolation.class, INTERPOLATION, map),
+                SettingsMap.choice(Interpolation.class, INTERPOLATION, map),
                 new TrackFilter(
                         (Integer) map.get(MINIMUM_TRACK_LENGTH),
                         (Integer) map.get(MINIMUM_TRACK_LENGTH_AT_EDGE),
                         (Double) map.get(MINIMUM_TRACK_SCORE)));
-    }
-
-    /** The constant that a setting names, in whatever case. */
-    static <E extends Enum<E>> E choice(Class<E> type, String key, Map<String, Object> map) {
-        String name = String.valueOf(map.get(key));
-        try {
-            return Enum.valueOf(type, name.trim().toUpperCase(Locale.ROOT));
-        } catch (IllegalArgumentException e) {
-            throw new IllegalArgumentException(
-                    "The setting %s must be %s, not \"%s\"".formatted(key, names(type), name), e);
-        }
-    }
-
-    private static <E extends Enum<E>> String names(Class<E> type) {
-        return Arrays.stream(type.getEnumConstants()).map(Enum::name).collect(Collectors.joining(" or "));
     }
 }
