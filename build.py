@@ -5,9 +5,11 @@
     python3 build.py track [FILM] [--output FOLDER] [--options "KEY=VALUE ..."]
     python3 build.py test
     python3 build.py jar
+    python3 build.py accuracy [--data FOLDER] [--peers] [--trackmate CLASSPATH]
 
 `track` sets everything up, makes a film if none is given, and tracks it in headless ImageJ with the plug-in's jar.
 `test` sets everything up and runs every test. `jar` leaves the plug-in at fiji-plugin/target/MEMTrack_-<version>.jar.
+`accuracy` measures the whole method on simulated films (model-server/docs/comparison.md has its options and results).
 """
 
 from __future__ import annotations
@@ -37,12 +39,17 @@ def main() -> int:
     track.add_argument("--options", default="", help="further options of the macro command, as in a macro")
     commands.add_parser("test", help="run every test")
     commands.add_parser("jar", help="build the plug-in")
-    arguments = parser.parse_args()
+    commands.add_parser("accuracy", help="measure the method on films with known tracks", add_help=False)
+    arguments, rest = parser.parse_known_args()
+    if rest and arguments.command != "accuracy":
+        parser.error(f"unrecognized arguments: {' '.join(rest)}")
     try:
         if arguments.command == "track":
             run_track(arguments.film, arguments.output, arguments.options)
         elif arguments.command == "test":
             run_tests()
+        elif arguments.command == "accuracy":
+            run_accuracy(rest)
         else:
             install_server(extras="")
             maven("package", "-DskipTests")
@@ -66,6 +73,11 @@ def run_track(film: Path | None, output: Path, options: str) -> None:
         step(f"Simulating a film of bacteria in collagen, with its true tracks beside it: {film}")
         run(PYTHON, "-m", "memtrack", "simulate", "--family", "collagen", "--seed", "8", film)
     step(f"Tracking {film} in headless ImageJ")
+    in_imagej(film, output, options)
+
+
+def in_imagej(film: Path, output: Path, options: str) -> None:
+    """Tracks `film` in headless ImageJ with the plug-in's jar, which is built."""
     classpath = (ROOT / "tests/target/classpath.txt").read_text(encoding="utf-8").strip()
     run(
         "java",
@@ -100,6 +112,13 @@ def run_tests() -> None:
     run(PYTHON, "-m", "pytest", cwd=SERVER)
     step("Building and testing the plug-in, then the whole")
     maven("verify")
+
+
+def run_accuracy(arguments: list[str]) -> None:
+    """Builds everything, then measures the whole method; the arguments are those of the benchmark."""
+    install_server(extras="[baselines]" if "--peers" in arguments else "")
+    maven("package", "-DskipTests")
+    run(PYTHON, SERVER / "benchmarks" / "accuracy", *arguments)
 
 
 def install_server(extras: str) -> None:
