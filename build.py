@@ -4,11 +4,12 @@
 
     python3 build.py track [FILM] [--output FOLDER] [--options "KEY=VALUE ..."]
     python3 build.py test
-    python3 build.py jar
+    python3 build.py jar [--with-python PLATFORM]
     python3 build.py accuracy [--data FOLDER] [--peers] [--trackmate CLASSPATH]
 
 `track` sets everything up, makes a film if none is given, and tracks it in headless ImageJ with the plug-in's jar.
-`test` sets everything up and runs every test. `jar` leaves the plug-in at fiji-plugin/target/MEMTrack_-<version>.jar.
+`test` sets everything up and runs every test. `jar` leaves the plug-in at fiji-plugin/target/MEMTrack_-<version>.jar,
+and with a platform also cpython-<version>-<platform>.jar beside it, with a Python for machines that have none.
 `accuracy` measures the whole method on simulated films (model-server/docs/comparison.md has its options and results).
 """
 
@@ -26,6 +27,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 SERVER = ROOT / "model-server"
 VENV = ROOT / ".venv"
+PYTHON_PLATFORMS = ("windows-x86_64", "macosx-arm64", "macosx-x86_64", "linux-x86_64")
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
@@ -38,7 +40,8 @@ def main() -> int:
     track.add_argument("--output", type=Path, default=ROOT / "out", help="folder for the results (default: out)")
     track.add_argument("--options", default="", help="further options of the macro command, as in a macro")
     commands.add_parser("test", help="run every test")
-    commands.add_parser("jar", help="build the plug-in")
+    jar = commands.add_parser("jar", help="build the plug-in")
+    jar.add_argument("--with-python", choices=PYTHON_PLATFORMS, help="fetch also a Python for this platform")
     commands.add_parser("accuracy", help="measure the method on films with known tracks", add_help=False)
     arguments, rest = parser.parse_known_args()
     if rest and arguments.command != "accuracy":
@@ -52,7 +55,8 @@ def main() -> int:
             run_accuracy(rest)
         else:
             install_server(extras="")
-            maven("package", "-DskipTests")
+            platform = arguments.with_python
+            maven("package", "-DskipTests", *([f"-Dpython.platform={platform}"] if platform else []))
     except subprocess.CalledProcessError as error:
         print(f"Failed with exit code {error.returncode}: {' '.join(map(str, error.cmd))}", file=sys.stderr)
         return 1

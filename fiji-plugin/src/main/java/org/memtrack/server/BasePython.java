@@ -3,12 +3,12 @@ package org.memtrack.server;
 
 import java.io.IOException;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
-/** Finds a Python to make an environment with. */
+/** Finds a Python of this machine to make an environment with. */
 final class BasePython {
     /** Oldest that the server's package takes. */
     private static final int LEAST_MINOR = 11;
@@ -20,24 +20,28 @@ final class BasePython {
     private BasePython() {}
 
     /**
-     * The first of the candidates that can make an environment.
+     * The first of the candidates that can make an environment; empty when there is none.
      *
-     * @throws DetectorException when there is none; the message tells what is wrong with each
+     * @param objections gets what is wrong with each before
      */
-    static Interpreter choose(List<Interpreter> candidates, Progress progress) {
-        List<String> reasons = new ArrayList<>();
+    static Optional<Interpreter> choose(List<Interpreter> candidates, List<String> objections, Progress progress) {
         for (Interpreter candidate : candidates) {
-            String reason = objection(candidate, progress);
-            if (reason.isEmpty()) {
-                return candidate;
+            String objection = objection(candidate, progress);
+            if (objection.isEmpty()) {
+                return Optional.of(candidate);
             }
-            reasons.add(candidate.describe() + " " + reason);
+            objections.add(candidate.describe() + " " + objection);
         }
-        throw new DetectorException(
-                "No Python 3.%d or newer was found%s: install one (on Windows and macOS from python.org,"
-                                .formatted(
-                                        LEAST_MINOR, reasons.isEmpty() ? "" : " (" + String.join("; ", reasons) + ")")
-                        + " on Linux from the system's packages), then run this command again.");
+        return Optional.empty();
+    }
+
+    /** That there is none, with what is wrong with those that were tried, and what to do. */
+    static DetectorException none(List<String> objections) {
+        return new DetectorException("No Python 3.%d or newer was found%s: %s, then run this command again."
+                .formatted(
+                        LEAST_MINOR,
+                        objections.isEmpty() ? "" : " (" + String.join("; ", objections) + ")",
+                        CarriedPython.advice()));
     }
 
     private static String objection(Interpreter candidate, Progress progress) {

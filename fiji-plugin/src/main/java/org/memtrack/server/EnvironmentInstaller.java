@@ -14,6 +14,8 @@ import java.time.format.DateTimeFormatter;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import java.util.Map;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.atomic.AtomicInteger;
@@ -22,7 +24,8 @@ import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
 /**
- * Makes the Python environment of the server: a plain venv in the data folder, with the wheel of the jar in it. An
+ * Makes the Python environment of the server in the data folder: a plain venv, or on a machine without Python a copy of one
+ * that a jar carries, with the wheel of the plug-in's jar in it. An
  * environment is in use only when it is complete and its server has answered; until then the older one stays.
  */
 public final class EnvironmentInstaller {
@@ -32,21 +35,26 @@ public final class EnvironmentInstaller {
 
     private final Path dataFolder;
     private final ServerWheel wheel;
+    private final Map<String, String> environment;
+    private final Optional<CarriedPython> carried;
 
     /** An installer of the jar's own server into the user's data folder. */
     public EnvironmentInstaller() {
-        this(DataFolder.path(), ServerWheel.fromJar());
+        this(DataFolder.path(), ServerWheel.fromJar(), System.getenv(), CarriedPython.find());
     }
 
-    EnvironmentInstaller(Path dataFolder, ServerWheel wheel) {
+    EnvironmentInstaller(
+            Path dataFolder, ServerWheel wheel, Map<String, String> environment, Optional<CarriedPython> carried) {
         this.dataFolder = dataFolder;
         this.wheel = wheel;
+        this.environment = environment;
+        this.carried = carried;
     }
 
     /**
      * Makes a new environment and puts it into use in place of an older one.
      *
-     * @param python to make it with; null to look for one on the path
+     * @param python to make it with; null to look for one on the path, then in a jar beside the plug-in's
      * @param torch whether to install PyTorch too, for training and graphics cards
      * @throws DetectorException when it cannot be made; the older one, if any, is in use as before
      * @throws CancellationException when progress was cancelled; likewise
@@ -58,7 +66,7 @@ public final class EnvironmentInstaller {
             try (FileChannel channel = FileChannel.open(
                     dataFolder.resolve("install.lock"), StandardOpenOption.CREATE, StandardOpenOption.WRITE)) {
                 lock(channel);
-                return make(base(python, progress), torch, progress);
+                return make(start(python, progress), torch, progress);
             }
         } catch (IOException e) {
             throw new DetectorException(
@@ -66,6 +74,11 @@ public final class EnvironmentInstaller {
                             .formatted(dataFolder, e.getMessage()),
                     e);
         }
+    }
+
+    /** The jar whose Python stands in where this machine has none. */
+    public static Optional<Path> carriedPython() {
+        return CarriedPython.find().map(CarriedPython::jar);
     }
 
     /** What pip and the others printed in the last installation. */
@@ -87,16 +100,27 @@ public final class EnvironmentInstaller {
         }
     }
 
-    private static Interpreter base(@Nullable Path python, Progress progress) {
+    /** A venv of the Python that was named, or else of one on the path; without any, a copy of one carried by a jar. */
+    private EnvironmentStart start(@Nullable Path python, Progress progress) {
         progress.report("Looking for Python", 0, OptionalDouble.empty(), "");
-        return BasePython.choose(
+        List<String> objections = new ArrayList<>();
+        Optional<Interpreter> base = BasePython.choose(
                 python == null
-                        ? Interpreters.onPath(System.getenv())
-                        : Interpreters.candidates(python, System.getenv(), python),
+                        ? Interpreters.onPath(environment)
+                        : Interpreters.candidates(python, environment, python),
+                objections,
                 progress);
+        if (base.isPresent()) {
+            return (folder, part) ->
+                    step("making the environment", base.get().process("-m", "venv", folder.toString()), part);
+        }
+        if (python == null && carried.isPresent()) {
+            return carried.get();
+        }
+        throw BasePython.none(objections);
     }
 
-    private PythonEnvironment make(Interpreter base, boolean torch, Progress progress) throws IOException {
+    private PythonEnvironment make(EnvironmentStart start, boolean torch, Progress progress) throws IOException {
         Files.deleteIfExists(log());
         String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
         Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
@@ -104,20 +128,24 @@ public final class EnvironmentInstaller {
         boolean complete = false;
         try {
             progress.report("Making the environment", 0.02, OptionalDouble.empty(), folder.toString());
-            step("making the environment", base.process("-m", "venv", folder.toString()), progress, 0.02, 0.1);
+            start.make(folder, progress.between(0.02, 0.1));
             Path parcels = folder.resolve("memtrack-wheel");
             wheel.writeTo(parcels);
-            ProcessBuilder pip = made.interpreter()
-                    .process(
-                            "-m",
-                            "pip",
-                            "install",
-                            "--no-input",
-                            "--disable-pip-version-check",
-                            "--progress-bar=off",
-                            // By its bare name: pip would read a bracket in a path as an extra.
-                            wheel.fileName() + (torch ? "[torch]" : ""));
-            step("installing the packages", pip.directory(parcels.toFile()), progress, 0.1, 0.9);
+            List<String> pip = new ArrayList<>(List.of(
+                    "-m",
+                    "pip",
+                    "install",
+                    "--no-input",
+                    "--disable-pip-version-check",
+                    "--no-warn-script-location",
+                    "--progress-bar=off",
+                    // By its bare name: pip would read a bracket in a path as an extra.
+                    wheel.fileName() + (torch ? "[torch]" : "")));
+            pip.addAll(start.packages());
+            step(
+                    "installing the packages",
+                    made.interpreter().process(pip.toArray(String[]::new)).directory(parcels.toFile()),
+                    progress.between(0.1, 0.9));
             progress.report("Trying the server", 0.9, OptionalDouble.empty(), "");
             tryServer(made, progress);
             made.use(dataFolder);
@@ -133,9 +161,7 @@ public final class EnvironmentInstaller {
         return made;
     }
 
-    private void step(String doing, ProcessBuilder builder, Progress progress, double start, double end)
-            throws IOException {
-        Progress part = progress.between(start, end);
+    private void step(String doing, ProcessBuilder builder, Progress part) throws IOException {
         List<String> said = Collections.synchronizedList(new ArrayList<>());
         AtomicInteger lines = new AtomicInteger();
         Progress polled = new Progress() {
@@ -153,7 +179,7 @@ public final class EnvironmentInstaller {
                             OptionalDouble.empty(),
                             said.get(count - 1).strip());
                 }
-                return progress.cancelled();
+                return part.cancelled();
             }
         };
         WatchedProcess.End ended;

@@ -23,6 +23,13 @@ final class InstallFailures {
         known(
                 "filename or extension is too long|WinError 206",
                 "the path is too long for Windows; set MEMTRACK_HOME to a short one");
+        // Windows says the rest in the user's language: access denied, used by another program, taken for a virus.
+        known(
+                "WinError (5|32|225)\\b|Permission denied",
+                "a file in the folder could not be written; if a virus scanner holds it, allow it the folder, and try again");
+        known(
+                "GLIBC_[0-9.]+' not found",
+                "the Python of the jar needs a newer Linux; install Python 3.11 or newer from the system's packages");
         known("ensurepip is not available", "it lacks venv; install the package python3-venv");
     }
 

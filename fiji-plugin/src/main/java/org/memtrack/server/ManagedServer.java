@@ -4,6 +4,7 @@ package org.memtrack.server;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.Executors;
 import java.util.concurrent.ScheduledExecutorService;
@@ -83,11 +84,18 @@ final class ManagedServer {
         }
         throw new DetectorException(
                 reasons.isEmpty()
-                        ? "No Python was found: install Python 3.11 or newer, then run Plugins > Tracking > MEMTrack > MEMTrack"
-                                + " Install Python Environment."
+                        ? noPython(CarriedPython.find())
                         : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
                                         .formatted(String.join("; ", reasons))
                                 + " Environment, or name a Python that has MEMTrack.");
+    }
+
+    /** What to do when there is no Python to start a server with. */
+    static String noPython(Optional<CarriedPython> carried) {
+        String command = "run Plugins > Tracking > MEMTrack > MEMTrack Install Python Environment.";
+        return carried.isPresent()
+                ? "The server's Python environment is not installed yet: " + command
+                : "No Python was found: %s, then %s".formatted(CarriedPython.advice(), command);
     }
 
     private static Running connect(LocalServer server) {

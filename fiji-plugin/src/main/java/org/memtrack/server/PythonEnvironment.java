@@ -51,9 +51,11 @@ public record PythonEnvironment(Path folder, String version) {
 
     /** Its interpreter. */
     public Path python() {
-        return Interpreters.windows()
-                ? folder.resolve("Scripts").resolve("python.exe")
-                : folder.resolve("bin").resolve("python");
+        if (!Interpreters.windows()) {
+            return folder.resolve("bin").resolve("python");
+        }
+        Path ofVenv = folder.resolve("Scripts").resolve("python.exe");
+        return Files.isRegularFile(ofVenv) ? ofVenv : folder.resolve("python.exe");
     }
 
     Interpreter interpreter() {

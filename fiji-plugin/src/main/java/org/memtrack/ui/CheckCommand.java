@@ -17,6 +17,7 @@ import org.memtrack.client.ServerInfo;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.OptionLine;
 import org.memtrack.server.DataFolder;
+import org.memtrack.server.EnvironmentInstaller;
 import org.memtrack.server.PythonEnvironment;
 import org.memtrack.server.ServerConnection;
 import org.memtrack.server.ServerSettings;
@@ -63,6 +64,7 @@ public final class CheckCommand implements PlugIn {
                 MEMTrack plug-in: %s
                 ImageJ: %s%s, Java %s, %s %s
                 Installed Python environment: %s
+                Python carried by a jar: %s
                 TrackMate: %s
                 """.formatted(
                         PluginVersion.get(),
@@ -72,6 +74,7 @@ public final class CheckCommand implements PlugIn {
                         System.getProperty("os.name"),
                         System.getProperty("os.arch"),
                         environment,
+                        EnvironmentInstaller.carriedPython().map(Path::toString).orElse("none"),
                         TrackMateInstallation.problem().orElse("can be used"));
     }
 

@@ -11,6 +11,7 @@ import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import java.util.stream.Stream;
@@ -51,8 +52,8 @@ class EnvironmentInstallerTest {
         assertThat(data.resolve("install.log")).content().contains("requires a different Python");
 
         List<String> said = new ArrayList<>();
-        PythonEnvironment newer = new EnvironmentInstaller(data, SmallWheel.of(SmallWheel.SERVER, ">=3"))
-                .install(null, false, heard(said));
+        PythonEnvironment newer =
+                installer(SmallWheel.of(SmallWheel.SERVER, ">=3")).install(null, false, heard(said));
         assertThat(PythonEnvironment.installed(data)).contains(newer);
         assertThat(environments()).containsExactly(newer.folder());
         assertThat(said)
@@ -72,7 +73,7 @@ class EnvironmentInstallerTest {
             }
         };
         ServerWheel wheel = SmallWheel.of(SmallWheel.SERVER, ">=3");
-        assertThatThrownBy(() -> new EnvironmentInstaller(data, wheel).install(null, false, cancelledWhenMade))
+        assertThatThrownBy(() -> installer(wheel).install(null, false, cancelledWhenMade))
                 .isInstanceOf(CancellationException.class);
         assertThat(environments()).isEmpty();
         assertThat(PythonEnvironment.installed(data)).isEmpty();
@@ -93,8 +94,7 @@ class EnvironmentInstallerTest {
     @Test
     void whatIsNoPythonIsToldSo() throws Exception {
         Path java = Path.of(ProcessHandle.current().info().command().orElseThrow());
-        assertThatThrownBy(() ->
-                        new EnvironmentInstaller(data, SmallWheel.of("", ">=3")).install(java, false, Progress.NONE))
+        assertThatThrownBy(() -> installer(SmallWheel.of("", ">=3")).install(java, false, Progress.NONE))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining(java.toString())
                 .hasMessageContaining("is no Python");
@@ -108,13 +108,24 @@ class EnvironmentInstallerTest {
                 .isEqualTo("the package index cannot be reached; check the network");
         assertThat(InstallFailures.cause(List.of("ERROR: [Errno 28] No space left on device")))
                 .isEqualTo("the disk is full");
+        assertThat(InstallFailures.cause(
+                        List.of("ERROR: Could not install packages due to an OSError: [WinError 32] Der Prozess"
+                                + " kann nicht auf die Datei zugreifen")))
+                .contains("virus scanner");
+        assertThat(InstallFailures.cause(List.of(
+                        "python: /lib/libm.so.6: version `GLIBC_2.35' not found (required by libpython3.13.so.1.0)")))
+                .contains("needs a newer Linux");
         assertThat(InstallFailures.cause(List.of("Collecting x", "ERROR: something new", "[notice] a new pip")))
                 .isEqualTo("something new");
         assertThat(InstallFailures.cause(List.of())).isEqualTo("it did not say why");
     }
 
     private PythonEnvironment install(ServerWheel wheel) {
-        return new EnvironmentInstaller(data, wheel).install(null, false, Progress.NONE);
+        return installer(wheel).install(null, false, Progress.NONE);
+    }
+
+    private EnvironmentInstaller installer(ServerWheel wheel) {
+        return new EnvironmentInstaller(data, wheel, System.getenv(), Optional.empty());
     }
 
     private List<Path> environments() {

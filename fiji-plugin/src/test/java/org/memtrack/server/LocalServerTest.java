@@ -3,11 +3,13 @@ package org.memtrack.server;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.junit.jupiter.api.Assumptions.assumeTrue;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import org.junit.jupiter.api.Test;
@@ -90,7 +92,21 @@ class LocalServerTest {
                 .hasMessageContaining("first reason")
                 .hasMessageContaining("second reason")
                 .hasMessageContaining("Install Python Environment");
-        assertThatThrownBy(() -> managed.acquire(List.of(), Progress.NONE)).hasMessageContaining("No Python was found");
+        assertThatThrownBy(() -> managed.acquire(List.of(), Progress.NONE))
+                .hasMessageContaining("Install Python Environment");
+    }
+
+    @Test
+    void withoutAnyPythonItIsToldWhatToDoFirst() {
+        assertThat(ManagedServer.noPython(Optional.empty()))
+                .startsWith("No Python was found: install Python 3.11 or newer")
+                .contains(CarriedPython.jarName())
+                .endsWith("MEMTrack Install Python Environment.");
+        assumeTrue(
+                CarriedPython.find().isPresent(), "The jar with a Python that the tests fetch is for Linux on x86_64.");
+        assertThat(ManagedServer.noPython(CarriedPython.find()))
+                .isEqualTo("The server's Python environment is not installed yet: run Plugins > Tracking > MEMTrack >"
+                        + " MEMTrack Install Python Environment.");
     }
 
     private Interpreter script(String code) throws Exception {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.tests;
 
+import java.io.File;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.InputStreamReader;
@@ -11,8 +12,14 @@ import java.nio.file.Path;
 import java.util.Properties;
 import net.imagej.patcher.LegacyEnvironment;
 
-/** An ImageJ of its own, headless, with the shaded plug-in jar and nothing else; runs macros. */
+/**
+ * An ImageJ of its own, headless, with the shaded plug-in jar and nothing else; runs macros.
+ *
+ * <p>The system property {@value #JARS} may name further jars, separated as a class path, as they lie in Fiji's folder jars.
+ */
 public final class MacroSession {
+    static final String JARS = "memtrack.jars";
+
     private final LegacyEnvironment environment;
 
     /** Starts an ImageJ. The plug-in's jar must have been packaged. */
@@ -24,6 +31,11 @@ public final class MacroSession {
         environment = new LegacyEnvironment(null, true);
         environment.disableIJ1PluginDirs();
         environment.addPluginClasspath(jar.toFile());
+        for (String further : System.getProperty(JARS, "").split(File.pathSeparator)) {
+            if (!further.isEmpty()) {
+                environment.addPluginClasspath(new File(further));
+            }
+        }
     }
 
     /** Loads ImageJ's own classes, for what macros cannot do. */

@@ -2,15 +2,20 @@
 package org.memtrack.tests;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.junit.jupiter.api.Assumptions.assumeTrue;
 
 import java.io.File;
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.concurrent.TimeUnit;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -108,13 +113,70 @@ class ProcessesTest {
         assertThat(process.exitValue()).isZero();
     }
 
+    @Test
+    void aMachineWithoutPythonGetsThroughWithTheJarThatCarriesOne() throws Exception {
+        Optional<Path> jar = carriedPython();
+        assumeTrue(jar.isPresent(), "The jar with a Python that the tests fetch is for Linux on x86_64.");
+        Path user = folder.resolve("Jörg Müller");
+        Path nothing = Files.createDirectories(user.resolve("no programs"));
+        Path theirs = Files.copy(film, user.resolve("Fänge.tif"));
+        Path output = user.resolve("Bahnen [1]");
+        Path log = folder.resolve("carried.log");
+        Map<String, String> environment = Map.of(
+                "PATH", nothing.toString(),
+                "XDG_DATA_HOME", user.resolve(".local").resolve("share").toString(),
+                "MEMTRACK_HOME", "",
+                "MEMTRACK_PYTHON", "",
+                "PYTHONPATH", "",
+                "PYTHONHOME", "",
+                "LD_LIBRARY_PATH", "");
+        Process process = launch(
+                log,
+                environment,
+                List.of(jar.get()),
+                Macros.class,
+                "run(\"MEMTrack Install Python Environment\");",
+                "run(\"MEMTrack Check Installation\");",
+                "open(\"%s\"); run(\"MEMTrack Track\", \"output=[%s]\");".formatted(theirs, output));
+        assertThat(process.waitFor(550, TimeUnit.SECONDS)).isTrue();
+        assertThat(log)
+                .content(StandardCharsets.UTF_8)
+                .contains("is installed in " + user)
+                .contains("Python carried by a jar: " + jar.get())
+                .contains("Devices: openvino CPU");
+        assertThat(process.exitValue()).as(Files.readString(log)).isZero();
+        assertThat(new TrackTable(output.resolve("Fänge.motility.csv")).rows()).hasSize(SwimmersFilm.SWIMMERS);
+    }
+
+    /** The jar that the build fetched; empty when it is for another machine. */
+    private static Optional<Path> carriedPython() throws IOException {
+        if (!System.getProperty("os.name").equals("Linux")
+                || !System.getProperty("os.arch").equals("amd64")) {
+            return Optional.empty();
+        }
+        try (Stream<Path> files = Files.list(Path.of("target", "python"))) {
+            return Optional.of(files.findFirst().orElseThrow().toAbsolutePath());
+        }
+    }
+
     private static Process launch(Path log, Map<String, String> environment, Class<?> program, String... arguments)
+            throws Exception {
+        return launch(log, environment, List.of(), program, arguments);
+    }
+
+    /** @param jars further ones, as in Fiji's folder jars */
+    private static Process launch(
+            Path log, Map<String, String> environment, List<Path> jars, Class<?> program, String... arguments)
             throws Exception {
         List<String> command = new ArrayList<>(List.of(
                 Path.of(System.getProperty("java.home"), "bin", "java").toString(),
                 "--add-opens=java.base/java.lang=ALL-UNNAMED",
                 "-Djava.awt.headless=true",
                 "-Dfile.encoding=UTF-8",
+                "-D%s=%s"
+                        .formatted(
+                                MacroSession.JARS,
+                                jars.stream().map(Path::toString).collect(Collectors.joining(File.pathSeparator))),
                 "-cp",
                 System.getProperty("java.class.path"),
                 program.getName()));

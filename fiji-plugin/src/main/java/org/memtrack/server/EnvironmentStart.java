@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.CancellationException;
+import org.memtrack.client.Progress;
+
+/** How the folder of an environment comes about, before the server is installed into it. */
+interface EnvironmentStart {
+    /**
+     * Makes the folder, with a Python and its pip in it.
+     *
+     * @param folder does not exist yet; what is made of it on a failure is the caller's to delete
+     * @throws CancellationException when progress was cancelled
+     */
+    void make(Path folder, Progress progress) throws IOException;
+
+    /** What pip must install beside the server, for this Python. */
+    default List<String> packages() {
+        return List.of();
+    }
+}
