@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.OptionalDouble;
 import java.util.stream.IntStream;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.tracking.Track;
 import org.memtrack.video.FilmInfo;
 
@@ -29,7 +30,7 @@ public final class MotilityAnalysis {
      * @param frames whose drift is taken away; a frame left out has the drift of the one before it
      */
     public static List<TrackMotility> analyse(FilmInfo film, List<Track> tracks, List<FrameDetections> frames) {
-        Trajectory.Drift drift = Trajectory.Drift.of(frames);
+        StageDrift drift = new StageDrift(frames);
         return tracks.stream()
                 .map(track -> analyse(film, track.id(), new Trajectory(track, drift)))
                 .toList();

@@ -2,46 +2,27 @@
 package org.memtrack.motility;
 
 import java.util.List;
-import java.util.Map;
-import java.util.NavigableMap;
-import java.util.TreeMap;
-import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 
 /** Where a track was detected, in the scene's own coordinates: pixels of frame 0, the drift taken away. */
 final class Trajectory {
-    /** Where the drift of each frame is looked up. */
-    record Drift(NavigableMap<Integer, FrameDetections> frames) {
-        static Drift of(List<FrameDetections> frames) {
-            NavigableMap<Integer, FrameDetections> byFrame = new TreeMap<>();
-            frames.forEach(frame -> byFrame.put(frame.frame(), frame));
-            return new Drift(byFrame);
-        }
-
-        private FrameDetections at(int frame) {
-            Map.Entry<Integer, FrameDetections> entry = frames.floorEntry(frame);
-            return entry == null ? new FrameDetections(frame, List.of()) : entry.getValue();
-        }
-    }
-
     private final int[] frames;
     private final double[] xs;
     private final double[] ys;
 
     /** Interpolated points are left out, since their steps are not measured; a track of nothing else keeps them. */
-    Trajectory(Track track, Drift drift) {
+    Trajectory(Track track, StageDrift drift) {
         List<TrackPoint> observed =
                 track.points().stream().filter(point -> !point.interpolated()).toList();
         List<TrackPoint> points = observed.isEmpty() ? track.points() : observed;
         frames = points.stream().mapToInt(TrackPoint::frame).toArray();
         xs = points.stream()
-                .mapToDouble(
-                        point -> point.box().centreX() - drift.at(point.frame()).driftX())
+                .mapToDouble(point -> point.box().centreX() - drift.x(point.frame()))
                 .toArray();
         ys = points.stream()
-                .mapToDouble(
-                        point -> point.box().centreY() - drift.at(point.frame()).driftY())
+                .mapToDouble(point -> point.box().centreY() - drift.y(point.frame()))
                 .toArray();
     }
 

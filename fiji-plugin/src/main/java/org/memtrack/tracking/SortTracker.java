@@ -9,6 +9,7 @@ import java.util.function.BooleanSupplier;
 import java.util.function.DoubleConsumer;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 
 /**
  * Joins the detections of a film into tracks: SORT, interpolation and the track length filter (paper sections
@@ -41,7 +42,8 @@ public final class SortTracker {
     /**
      * Tracks of a film.
      *
-     * @param frames in ascending order of frame; a frame that is left out counts as one without detections
+     * @param frames in ascending order of frame; a frame that is left out counts as one without detections. Detections are
+     *     joined by where they stand in the scene, freed of its drift
      * @param progress told the share of the work that is done, in [0, 1]
      * @param cancelled asked once a frame
      * @return tracks in order of their first frame, numbered from 0
@@ -50,6 +52,7 @@ public final class SortTracker {
      */
     public List<Track> track(List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
         Sort sort = new Sort(settings, typicalEdge(frames));
+        SceneView scene = new SceneView(new StageDrift(frames));
         int expected = frames.isEmpty() ? 0 : frames.get(0).frame();
         for (int i = 0; i < frames.size(); i++) {
             FrameDetections frame = frames.get(i);
@@ -60,11 +63,11 @@ public final class SortTracker {
             for (; expected < frame.frame(); expected++) {
                 stepUnless(cancelled, sort, new FrameDetections(expected, List.of()));
             }
-            stepUnless(cancelled, sort, frame);
+            stepUnless(cancelled, sort, scene.inScene(frame));
             expected++;
             progress.accept((i + 1.0) / frames.size());
         }
-        return finish(sort.tracklets());
+        return finish(sort.tracklets(), scene);
     }
 
     private static double typicalEdge(List<FrameDetections> frames) {
@@ -82,10 +85,10 @@ public final class SortTracker {
         sort.step(frame);
     }
 
-    private List<Track> finish(List<Tracklet> tracklets) {
+    private List<Track> finish(List<Tracklet> tracklets, SceneView scene) {
         List<List<TrackPoint>> kept = tracklets.stream()
                 .filter(this::hasHitsEnough)
-                .map(this::pointsOf)
+                .map(tracklet -> scene.inFilm(pointsOf(tracklet)))
                 .filter(points -> !points.isEmpty() && settings.filter().keeps(points, field))
                 .sorted(Comparator.comparingInt(points -> points.get(0).frame()))
                 .toList();

@@ -198,6 +198,39 @@ class SortTrackerTest {
         }
     }
 
+    @ParameterizedTest
+    @EnumSource(Association.class)
+    void aStageThatJumpsBreaksNoTrack(Association association) {
+        List<FrameDetections> frames = new ArrayList<>();
+        for (int i = 0; i < 20; i++) {
+            double jump = i < 10 ? 0 : 60;
+            List<Detection> detections = new ArrayList<>();
+            for (int k = 0; k < 3; k++) {
+                Box box = Box.around(100 + 45 * k + 0.5 * i + jump, 80 - jump, 30, 30);
+                if (i < 9 || i > 10) {
+                    detections.add(new Detection(box, 0.9, Level.LOW));
+                }
+            }
+            frames.add(new FrameDetections(i, detections, jump, -jump));
+        }
+
+        List<Track> tracks = new SortTracker(settings(association, Interpolation.FILL_GAPS)).track(frames);
+
+        assertThat(tracks).hasSize(3).allMatch(track -> track.length() == 20);
+        for (Track track : tracks) {
+            double start = track.points().get(0).box().centreX();
+            for (TrackPoint point : track.points()) {
+                double jump = point.frame() < 10 ? 0 : 60;
+                assertThat(point.box().centreX()).isCloseTo(start + 0.5 * point.frame() + jump, within(0.5));
+                assertThat(point.box().centreY()).isCloseTo(80 - jump, within(0.5));
+                if (point.detection() != null) {
+                    assertThat(frames.get(point.frame()).detections()).anyMatch(found -> found == point.detection());
+                    assertThat(point.box()).isEqualTo(point.detection().box());
+                }
+            }
+        }
+    }
+
     @Test
     void associationByMotionSwitchesBetweenSwimmersLessThanTheOneByOverlap() {
         RandomWorld.Settings crowd = TrackingBenchmark.WORLDS.get("crowd");
