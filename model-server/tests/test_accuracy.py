@@ -72,7 +72,7 @@ def test_the_tables_have_a_row_a_film_and_a_column_a_method() -> None:
     truth = straight(3.0)
     ours = score(truth, truth, "model test 1")
     films = [
-        Examined("first", "foam", 1.0, "", {OURS: ours, "other": replace(ours, f1=0.5, hota=0.25)}),
+        Examined("first", "foam", 1.0, "", {"other": replace(ours, f1=0.5, hota=0.25), OURS: ours}),
         Examined("second", "foam", 1.0, "", {OURS: replace(ours, f1=0.9), "other": replace(ours, f1=0.0, hota=0.0)}),
         Examined("nothing", "foam", 0.0, "", {OURS: replace(ours, tracks=3, long_tracks=2)}),
     ]

@@ -137,7 +137,7 @@ def tables(films: Sequence[Examined]) -> str:
     rows = [[*_head(film), *(show(film.scores[OURS]) for show in _COLUMNS.values())] for film in ours]
     models = " and ".join(sorted({film.scores[OURS].how for film in films if OURS in film.scores}))
     parts = [f"{OURS} with {models}:", _table([*_HEAD, *_COLUMNS], rows)] if ours else []
-    methods = list(dict.fromkeys(method for film in full for method in film.scores))
+    methods = sorted(dict.fromkeys(method for film in full for method in film.scores), key=lambda m: m != OURS)
     if len(methods) > 1:
         rows = [[film.name, *(_pair(film.scores.get(method)) for method in methods)] for film in full]
         shared = [film for film in full if set(methods) <= set(film.scores)]
