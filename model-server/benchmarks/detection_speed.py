@@ -17,12 +17,12 @@ from typing import TypeVar
 import cv2
 import numpy as np
 
-from memtrack.background import temporal_background
 from memtrack.detector import padded
 from memtrack.models import load_model
 from memtrack.motion import FilmFeatures
 from memtrack.pipeline import DetectionSettings, detect_film
 from memtrack.pruning import prune
+from memtrack.scene import Scene
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.stabilisation import measure_motion
@@ -46,8 +46,8 @@ def main() -> None:
         pass
 
     motion = timed("stabilisation", n, lambda: measure_motion(film, stabilise=True, report=silent))
-    background = timed("background", n, lambda: temporal_background(film, motion, report=silent))
-    made = FilmFeatures(film, motion, background, model.card.features)
+    scene = timed("background", n, lambda: Scene(film, motion, report=silent))
+    made = FilmFeatures(scene, model.card.features)
     features = timed("features", n, lambda: [padded(made.frame(i)) for i in range(n)])
     engine, decoder = model.engine(), model.card.decoder
     engine.run(features[0])

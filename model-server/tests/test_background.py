@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from memtrack.background import Background, _order_statistics, aligned_frame, split_drift, temporal_background
@@ -30,6 +30,7 @@ def test_median_and_spread_of_a_five_by_five_film() -> None:
     assert made.spread[0, 0] == 0
 
 
+@settings(deadline=None)
 @given(st.integers(1, 9), st.integers(0, 2**32 - 1))
 def test_order_statistics_equal_numpys(count: int, seed: int) -> None:
     stack = np.random.default_rng(seed).integers(0, 60000, (count, 4, 3), np.uint16)

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from memtrack import libraries
+from memtrack.channels import NEUTRAL
 from memtrack.detector import Decoder, detect, padded
 from memtrack.engines import OpenVinoEngine
 from memtrack.errors import EngineUnavailableError, SettingsError
 from memtrack.models import load_model
-from memtrack.motion import NEUTRAL
 
 
 class Fixed:

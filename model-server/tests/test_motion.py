@@ -3,12 +3,13 @@ import cv2
 import numpy as np
 import pytest
 
-from memtrack.background import temporal_background
+from memtrack.channels import NEUTRAL
 from memtrack.errors import SettingsError
 from memtrack.film import ArrayFilm
 from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
-from memtrack.motion import AUTHORS, MOTION, NEUTRAL, PAPER, FeatureSpec, FilmFeatures
+from memtrack.motion import AUTHORS, MOTION, PAPER, FeatureSpec, FilmFeatures
 from memtrack.resampling import ScaledFilm, read_shifted
+from memtrack.scene import Scene
 from memtrack.simulation.scenes import mottled
 from memtrack.stabilisation import FilmMotion, measure_motion
 
@@ -16,7 +17,7 @@ from memtrack.stabilisation import FilmMotion, measure_motion
 def features_of(frames: np.ndarray, spec: FeatureSpec, *, stabilise: bool = False) -> FilmFeatures:
     film = ArrayFilm(frames)
     motion = measure_motion(film, stabilise=stabilise, report=lambda done, total: None)
-    return FilmFeatures(film, motion, temporal_background(film, motion, report=lambda done, total: None), spec)
+    return FilmFeatures(Scene(film, motion, report=lambda done, total: None), spec)
 
 
 def noisy(count: int, h: int = 64, w: int = 80, level: float = 100.0) -> np.ndarray:
@@ -54,8 +55,8 @@ def test_neighbours_of_a_drifting_film_are_brought_to_the_frames_place() -> None
     frames[10, 48:52, 58:62] += 80
     drift = np.stack([2.0 * np.arange(21), np.zeros(21)], axis=1)
     film, motion = ArrayFilm(frames.astype(np.float32)), FilmMotion(drift, np.ones(21))
-    background = temporal_background(film, motion, report=lambda done, total: None)
-    made = FilmFeatures(film, motion, background, FeatureSpec("s", 1, ("deviation", "deviation-2")))
+    still = Scene(film, motion, report=lambda done, total: None)
+    made = FilmFeatures(still, FeatureSpec("s", 1, ("deviation", "deviation-2")))
     assert made.frame(10)[0, 49:51, 59:61].min() > NEUTRAL + 60
     assert made.frame(12)[1, 49:51, 63:65].min() > NEUTRAL + 60  # 2 frames later the place stands 4 px to the right
     assert (made.frame(20)[1, :, 96:] != NEUTRAL).any()

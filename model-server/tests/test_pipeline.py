@@ -172,6 +172,18 @@ def test_progress_is_reported_for_each_frame_and_stage(gel: SimulatedFilm, model
         assert mine == sorted(mine)
 
 
+def test_a_long_film_is_answered_in_order_while_its_backgrounds_are_made(model: Model) -> None:
+    frames = np.random.default_rng(0).integers(0, 255, (910, 16, 16), np.uint8)
+    calls: list[tuple[Stage, int, int]] = []
+    found = detect_film(ArrayFilm(frames), model, DetectionSettings(stabilise=False), lambda *call: calls.append(call))
+    assert [f.frame for f in found] == list(range(910))
+    detecting = [(done, total) for stage, done, total in calls if stage is Stage.DETECTING]
+    assert detecting == sorted(detecting)
+    assert len(detecting) == 910 + 96  # the second background is made on the way
+    assert detecting[-1] == (910, 910)
+    assert [stage for stage, _, _ in calls] == sorted(stage for stage, _, _ in calls)
+
+
 @pytest.mark.parametrize("stage", [Stage.STABILISING, Stage.BACKGROUND, Stage.DETECTING])
 def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, model: Model) -> None:
     def report(at: Stage, done: int, total: int) -> None:

@@ -8,6 +8,7 @@ import pytest
 import tifffile
 
 from memtrack.boxes import square_boxes
+from memtrack.channels import NEUTRAL
 from memtrack.cli import models as models_command
 from memtrack.cli import train as command
 from memtrack.detections import Detections
@@ -15,7 +16,7 @@ from memtrack.engines import TorchEngine
 from memtrack.errors import ModelNotFoundError, SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
-from memtrack.motion import MOTION, NEUTRAL, FeatureSpec
+from memtrack.motion import MOTION, FeatureSpec
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable

@@ -18,7 +18,7 @@ Progress = Callable[[int, int], None]
 
 SAMPLES = 96
 """Frames the median is taken of; more than this changes it by less than a tenth of the noise."""
-STRIP_BYTES = 96 << 20
+STRIP_BYTES = 24 << 20
 MISSING = 65535
 
 
@@ -66,16 +66,18 @@ def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndar
     return read_shifted(values, *split_drift(motion.drift[index])[1])
 
 
-def temporal_background(film: Film, motion: FilmMotion, *, report: Progress) -> Background:
-    """Median and spread over up to `SAMPLES` frames spread evenly over the film (paper section "Motion Enhancer").
+def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, frames: range | None = None) -> Background:
+    """Median and spread over up to `SAMPLES` frames spread evenly over the film, or over consecutive `frames` of it
+    (paper section "Motion Enhancer"); the canvas holds what these show.
 
     Works in strips of rows, so that memory does not grow with the film; `report(done, total)` is called for each
     frame read.
     """
-    h, w, count = film.height, film.width, film.frame_count
-    chosen = np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int))
-    places = [split_drift(d)[0] for d in motion.drift]
-    xs, ys = [-p[0] for p in places], [-p[1] for p in places]
+    h, w = film.height, film.width
+    within = range(film.frame_count) if frames is None else frames
+    chosen = np.unique(np.linspace(within[0], within[-1], min(len(within), SAMPLES)).astype(int))
+    places = {i: split_drift(motion.drift[i])[0] for i in within}
+    xs, ys = [-x for x, _ in places.values()], [-y for _, y in places.values()]
     origin = (min(xs), min(ys))
     canvas_w, canvas_h = max(xs) - origin[0] + w, max(ys) - origin[1] + h
     low, high = _grey_range(film, motion, chosen)

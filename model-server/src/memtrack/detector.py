@@ -14,8 +14,8 @@ import numpy as np
 from jaxtyping import Float32, Float64, UInt8
 
 from memtrack.boxes import square_boxes
+from memtrack.channels import NEUTRAL
 from memtrack.detections import Detections
-from memtrack.motion import NEUTRAL
 
 Maps = Float32[np.ndarray, "outputs rows columns"]
 

@@ -14,22 +14,14 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from jaxtyping import Float32, UInt8
+from jaxtyping import UInt8
 
-from memtrack.background import Background, aligned_frame, split_drift
+from memtrack.background import aligned_frame
+from memtrack.channels import KNEE, NEUTRAL, Channel, Image, as_bytes, shading_of, signed
 from memtrack.errors import SettingsError
-from memtrack.film import Film
 from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
-from memtrack.stabilisation import FilmMotion, overlap
-
-Image = Float32[np.ndarray, "h w"]
-Channel = UInt8[np.ndarray, "h w"]
-
-NEUTRAL = 128
-KNEE = 10.0
-"""Signed channels hold 128 + 127 v / (|v| + KNEE): 12 steps to a noise sd near zero, never saturated."""
-SHADING_PX = 8
-"""Shading of the deviation is removed at this fraction of the size, then smoothed over 4 such pixels."""
+from memtrack.scene import Scene
+from memtrack.stabilisation import overlap
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,16 +55,8 @@ class FilmFeatures:
     A film read forwards from its first frame computes each deviation once.
     """
 
-    def __init__(self, film: Film, motion: FilmMotion, background: Background, spec: FeatureSpec) -> None:
-        self.film, self.motion, self.background, self.spec = film, motion, background, spec
-        still = background.median
-        self._shading = _smooth(still)
-        texture = float(np.std(still - self._shading))
-        # Without noise (simulated or compressed films) residues of the scene are what a deviation must exceed.
-        rounding = 0.29 if film.frame(0).dtype.kind == "u" else 1e-4 * float(np.abs(still).mean()) + 1e-9
-        self.noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
-        self.texture = float(np.hypot(texture, self.noise))
-        self._spread = _signed(background.spread / np.float32(self.noise) - 1)
+    def __init__(self, scene: Scene, spec: FeatureSpec) -> None:
+        self.film, self.motion, self.scene, self.spec = scene.film, scene.motion, scene, spec
         self._known: dict[int, tuple[Channel, Channel]] = {}
         offsets = [_offset(c) for c in spec.channels if _NEIGHBOUR.fullmatch(c)]
         self._reach = max([abs(o) for o in offsets], default=0)
@@ -97,25 +81,19 @@ class FilmFeatures:
             return self._neighbour(index, _offset(name))
         return _CHANNELS[name](self, index, current)
 
-    def _window(self, index: int) -> tuple[slice, slice]:
-        return self.background.window(self._place(index), self.film.height, self.film.width)
-
-    def _place(self, index: int) -> tuple[int, int]:
-        return split_drift(self.motion.drift[index])[0]
-
     def _deviation_values(self, index: int, aligned: Image) -> Image:
-        values: Image = aligned - self.background.median[self._window(index)]
-        values *= np.float32(1 / self.noise)
+        values: Image = aligned - self.scene.median(index)
+        values *= np.float32(1 / self.scene.noise(index))
         # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
-        values -= _smooth(np.clip(values, -3, 3))
+        values -= shading_of(np.clip(values, -3, 3))
         return values
 
     def _grey_and_deviation(self, index: int) -> tuple[Channel, Channel]:
         """Both at once, since the frame is read and aligned long before it is the current one."""
         if index not in self._known:
             aligned = aligned_frame(self.film, self.motion, index)
-            grey = _signed((aligned - self._shading[self._window(index)]) * np.float32(2 / self.texture))
-            self._known[index] = grey, _signed(self._deviation_values(index, aligned))
+            grey = signed((aligned - self.scene.shading(index)) * np.float32(2 / self.scene.texture(index)))
+            self._known[index] = grey, signed(self._deviation_values(index, aligned))
         return self._known[index]
 
     def _neighbour(self, index: int, offset: int) -> Channel:
@@ -124,7 +102,7 @@ class FilmFeatures:
 
     def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:
         """`image` of frame `other` where the scene stands in frame `index`."""
-        shift = np.subtract(self._place(other), self._place(index))
+        shift = np.subtract(self.scene.place(other), self.scene.place(index))
         if not shift.any():
             return image
         moved = np.full_like(image, missing)
@@ -136,12 +114,11 @@ class FilmFeatures:
         return self._grey_and_deviation(index)[0]
 
     def _spread_channel(self, index: int, current: Callable[[], Image]) -> Channel:
-        spread: Channel = self._spread[self._window(index)]
-        return spread
+        return self.scene.spread(index)
 
     def _abs_deviation(self, index: int, current: Callable[[], Image]) -> Channel:
         values = np.abs(self._deviation_values(index, current()))
-        return _as_bytes(255 * values / (values + np.float32(KNEE)))
+        return as_bytes(255 * values / (values + np.float32(KNEE)))
 
     def _flow_with(self, flow: Callable[[Image, Image], Image], index: int, current: Callable[[], Image]) -> Image:
         before = max(index - 1, 0)  # frame 0 has no predecessor and no flow; it is not dropped
@@ -150,50 +127,29 @@ class FilmFeatures:
 
     def _flow(self, index: int, current: Callable[[], Image]) -> Channel:
         def flow(previous: Image, now: Image) -> Image:
-            return lucas_kanade_magnitude(previous, now, floor=self.noise**2)
+            return lucas_kanade_magnitude(previous, now, floor=self.scene.noise(index) ** 2)
 
         magnitude = self._flow_with(flow, index, current)
-        return _as_bytes(255 * magnitude / (magnitude + 1))
+        return as_bytes(255 * magnitude / (magnitude + 1))
 
     def _farneback(self, index: int, current: Callable[[], Image]) -> Channel:
         magnitude = self._flow_with(farneback_magnitude, index, current)
-        return _as_bytes(cv2.normalize(magnitude, np.empty_like(magnitude), 0, 255, cv2.NORM_MINMAX))
+        return as_bytes(cv2.normalize(magnitude, np.empty_like(magnitude), 0, 255, cv2.NORM_MINMAX))
 
     def _frame(self, index: int, current: Callable[[], Image]) -> Channel:
-        return self._levels(current())
+        return self._levels(index, current())
 
     def _median(self, index: int, current: Callable[[], Image]) -> Channel:
-        return self._levels(self.background.median[self._window(index)])
+        return self._levels(index, self.scene.median(index))
 
-    def _levels(self, image: Image) -> Channel:
-        middle = float(self.background.median.mean())
-        return _as_bytes(np.clip((image - middle) * np.float32(32 / self.texture) + NEUTRAL, 0, 255))
+    def _levels(self, index: int, image: Image) -> Channel:
+        scale = np.float32(32 / self.scene.texture(index))
+        return as_bytes(np.clip((image - self.scene.level(index)) * scale + NEUTRAL, 0, 255))
 
 
 def _offset(channel: str) -> int:
     match = _NEIGHBOUR.fullmatch(channel)
     return int(match[1]) if match and match[1] else 0
-
-
-def _signed(values: Image) -> Channel:
-    """Signed values squeezed into 8 bits around `NEUTRAL`, finely near zero and never saturated."""
-    size = np.abs(values)
-    size += np.float32(KNEE)
-    np.divide(values, size, out=size)
-    size *= np.float32(127)
-    size += np.float32(NEUTRAL + 0.5)
-    return _as_bytes(size)
-
-
-def _as_bytes(values: np.ndarray) -> Channel:
-    squeezed: np.ndarray = values.astype(np.uint8)
-    return squeezed
-
-
-def _smooth(image: Image) -> Image:
-    h, w = image.shape
-    small = cv2.resize(image, (max(1, w // SHADING_PX), max(1, h // SHADING_PX)), interpolation=cv2.INTER_AREA)
-    return cv2.resize(cv2.GaussianBlur(small, (0, 0), 4), (w, h), interpolation=cv2.INTER_LINEAR)
 
 
 _CHANNELS: dict[str, Callable[[FilmFeatures, int, Callable[[], Image]], Channel]] = {

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 from jaxtyping import Bool
 
-from memtrack.background import split_drift, temporal_background
+from memtrack.background import split_drift
 from memtrack.detections import Detections, FrameDetections, Level
 from memtrack.detector import detect
 from memtrack.errors import SettingsError
@@ -24,6 +24,7 @@ from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
 from memtrack.pruning import prune
 from memtrack.resampling import ScaledFilm
+from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
 
 T = TypeVar("T")
@@ -82,7 +83,8 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
     Reads the film up to four times through `film.frame` and holds a few frames of it. `report(stage, done, total)` is
-    called at least once a frame in every stage and may raise `CancelledError`.
+    called at least once a frame in every stage and may raise `CancelledError`. The backgrounds of a long film after the
+    first are made while detecting, each when its frames come.
 
     Raises:
         FilmError: the film holds values that are not finite.
@@ -96,13 +98,17 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     engine = model.engine(settings.engine, threads=settings.threads)
 
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=_at(report, Stage.STABILISING))
-    background = temporal_background(scaled, motion, report=_at(report, Stage.BACKGROUND))
-    features = FilmFeatures(scaled, motion, background, model.card.features)
+    done, count = 0, film.frame_count
+    scene = Scene(
+        scaled, motion, report=_at(report, Stage.BACKGROUND), alive=lambda: report(Stage.DETECTING, done, count)
+    )
+    features = FilmFeatures(scene, model.card.features)
     with ThreadPoolExecutor(settings.threads, "detector") as pool:
-        frames = (features.frame(i) for i in range(film.frame_count))
+        frames = (features.frame(i) for i in range(count))
         found = ahead(pool, partial(detect, engine, model.card.decoder), frames, settings.threads + 1)
         for i, on_grid in enumerate(found):
-            report(Stage.DETECTING, i + 1, film.frame_count)
+            done = i + 1
+            report(Stage.DETECTING, done, count)
             kept, counts = prune(
                 to_film(on_grid, split_drift(motion.drift[i])[1], scale),
                 thresholds=thresholds,

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float32, Int, UInt8
 
-from memtrack.motion import NEUTRAL, FeatureSpec
+from memtrack.channels import NEUTRAL
+from memtrack.motion import FeatureSpec
 from memtrack.training.loss import LossSettings, targets
 from memtrack.training.samples import FilmSamples, X, Y
 

@@ -158,6 +158,6 @@ def _key(films: SimulatedSet, spec: FeatureSpec) -> str:
 
 _SHAPING = {
     *("film.py", "families.py", "optics.py", "scenes.py", "swimming.py"),
-    *("stabilisation.py", "background.py", "motion.py", "flow.py", "resampling.py"),
+    *("stabilisation.py", "background.py", "scene.py", "channels.py", "motion.py", "flow.py", "resampling.py"),
 }
 """Source files that change what a sample holds."""

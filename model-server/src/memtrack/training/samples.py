@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, UInt8
 
-from memtrack.background import split_drift, temporal_background
+from memtrack.background import split_drift
 from memtrack.detections import Level
 from memtrack.film import Film
 from memtrack.motion import FeatureSpec, FilmFeatures
+from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
 from memtrack.tracks import Motility, TrackTable
 
@@ -47,8 +48,7 @@ def extract(
 ) -> FilmSamples:
     """Features and truth of `frames` frames of a film drawn at random, its first always among them if there are 8."""
     motion = measure_motion(film, stabilise=stabilise, report=_silent)
-    background = temporal_background(film, motion, report=_silent)
-    made = FilmFeatures(film, motion, background, spec)
+    made = FilmFeatures(Scene(film, motion, report=_silent), spec)
     count = film.frame_count
     chosen = np.sort(rng.choice(count, min(frames, count), replace=False))
     if len(chosen) >= 8:

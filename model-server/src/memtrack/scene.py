@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The still scene a frame is compared with, which may change in a long film.
+
+A film has one background as long as it fits into one window. A longer one, whose fibres remodel and whose focus drifts,
+has one for each of overlapping windows, and fades from one to the next. A bacterium that rests for more than half of a
+window is part of its background and leaves a ghost when it goes, so windows are long and none is cut short at the
+film's ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from memtrack.background import Background, Progress, split_drift, temporal_background
+from memtrack.channels import Channel, Image, shading_of, signed
+from memtrack.film import Film
+from memtrack.stabilisation import FilmMotion
+
+WINDOW_FRAMES = 900
+WINDOW_SECONDS = 15.0
+"""A window is no shorter than either, so that bacteria that rest for some seconds are not lost at any frame rate."""
+
+
+@dataclass(frozen=True, slots=True)
+class Windows:
+    """`count` windows of `length` frames, spread evenly over the `frames` of a film; each holds half of the next one or
+    more."""
+
+    frames: int
+    length: int
+    count: int
+
+    @classmethod
+    def of(cls, film: Film) -> Windows:
+        """As few as overlap by half."""
+        interval = film.calibration.frame_interval_seconds
+        length = max(WINDOW_FRAMES, round(WINDOW_SECONDS / interval) if interval else 0)
+        if film.frame_count <= length:
+            return cls(film.frame_count, film.frame_count, 1)
+        return cls(film.frame_count, length, math.ceil(2 * film.frame_count / length) - 1)
+
+    def window(self, number: int) -> range:
+        """Its frames; among them are all that `near` gives it a share of."""
+        first = round(number * self._step)
+        return range(first, first + self.length)
+
+    def near(self, frame: int) -> list[tuple[int, float]]:
+        """The one or two windows whose middles are nearest to a frame, with the share of each; these add up to 1."""
+        place = (frame - (self.length - 1) / 2) / self._step if self.count > 1 else 0.0
+        place = min(max(place, 0.0), self.count - 1.0)
+        first = math.floor(place)
+        share = place - first
+        return [(first, 1 - share), (first + 1, share)] if share else [(first, 1.0)]
+
+    @property
+    def _step(self) -> float:
+        return (self.frames - self.length) / max(1, self.count - 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """A background with what the features need of it: its shading, mean grey `level` and `texture`, its spread as a
+    channel, and the `noise` a deviation is counted in; in grey levels."""
+
+    background: Background
+    shading: Image
+    spread: Channel
+    level: float
+    noise: float
+    texture: float
+
+    @classmethod
+    def of(cls, background: Background, *, whole_numbers: bool) -> Still:
+        """Measures `background`; `whole_numbers` says whether the film holds only such."""
+        median = background.median
+        shading = shading_of(median)
+        texture = float(np.std(median - shading))
+        # Without noise (simulated or compressed films) residues of the scene are what a deviation must exceed.
+        rounding = 0.29 if whole_numbers else 1e-4 * float(np.abs(median).mean()) + 1e-9
+        noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
+        spread = signed(background.spread / np.float32(noise) - 1)
+        return cls(background, shading, spread, float(median.mean()), noise, float(np.hypot(texture, noise)))
+
+
+class Scene:
+    """The still scene at any frame of a film, on the grid of its aligned frame.
+
+    Makes the first background at once, with `report(done, total)` for each frame it reads, and later ones when they are
+    first asked for, with `alive()` for each frame. Of a film that is gone through forwards each is made once, and only
+    those nearby are kept.
+    """
+
+    def __init__(
+        self, film: Film, motion: FilmMotion, *, report: Progress, alive: Callable[[], None] = lambda: None
+    ) -> None:
+        self.film, self.motion = film, motion
+        self._windows = Windows.of(film)
+        self._whole_numbers = film.frame(0).dtype.kind == "u"
+        self._stills = {0: self._made(0, report)}
+        self._alive = alive
+
+    def place(self, index: int) -> tuple[int, int]:
+        """Whole pixels (x, y) the scene stands from its place in frame 0."""
+        return split_drift(self.motion.drift[index])[0]
+
+    def median(self, index: int) -> Image:
+        """Temporal median, in grey levels."""
+        return self._faded(index, lambda still: still.background.median)
+
+    def shading(self, index: int) -> Image:
+        """The median without the scene's texture."""
+        return self._faded(index, lambda still: still.shading)
+
+    def spread(self, index: int) -> Channel:
+        """Temporal spread less the noise, in units of it, as a signed channel."""
+        return self._faded(index, lambda still: still.spread)
+
+    def noise(self, index: int) -> float:
+        """What a deviation must exceed, in grey levels."""
+        return self._value(index, lambda still: still.noise)
+
+    def texture(self, index: int) -> float:
+        """Standard deviation of the scene with its noise, in grey levels."""
+        return self._value(index, lambda still: still.texture)
+
+    def level(self, index: int) -> float:
+        """Mean of the median."""
+        return self._value(index, lambda still: still.level)
+
+    def _value(self, index: int, of: Callable[[Still], float]) -> float:
+        return sum(share * of(self._still(number)) for number, share in self._windows.near(index))
+
+    def _faded(self, index: int, of: Callable[[Still], np.ndarray]) -> np.ndarray:
+        place, h, w = self.place(index), self.film.height, self.film.width
+        near = [(self._still(number), share) for number, share in self._windows.near(index)]
+        images = [of(still)[still.background.window(place, h, w)] for still, _ in near]
+        if len(near) == 1:
+            return images[0]
+        return np.asarray(cv2.addWeighted(images[0], near[0][1], images[1], near[1][1], 0))
+
+    def _still(self, number: int) -> Still:
+        if number not in self._stills:
+            # Three: while a coming frame needs the third, the current one may still need the first.
+            for old in [k for k in self._stills if abs(k - number) > 2]:
+                del self._stills[old]
+            self._stills[number] = self._made(number, lambda done, total: self._alive())
+        return self._stills[number]
+
+    def _made(self, number: int, report: Progress) -> Still:
+        window = self._windows.window(number)
+        background = temporal_background(self.film, self.motion, report=report, frames=window)
+        return Still.of(background, whole_numbers=self._whole_numbers)
