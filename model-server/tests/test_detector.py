@@ -118,3 +118,12 @@ def test_a_missing_openvino_is_said_in_one_sentence(monkeypatch: pytest.MonkeyPa
     monkeypatch.setitem(sys.modules, "openvino", None)
     with pytest.raises(EngineUnavailableError, match="install it with"):
         OpenVinoEngine(load_model().folder / "openvino.xml")
+
+
+def test_openvino_that_cannot_be_loaded_says_what_it_misses(monkeypatch: pytest.MonkeyPatch) -> None:
+    def load() -> None:
+        raise ImportError("DLL load failed while importing _pyopenvino")
+
+    monkeypatch.setattr("memtrack.engines.load_openvino", load)
+    with pytest.raises(EngineUnavailableError, match=r"DLL load failed.*Visual C\+\+ Redistributable"):
+        OpenVinoEngine(load_model().folder / "openvino.xml")

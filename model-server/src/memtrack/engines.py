@@ -27,9 +27,14 @@ class OpenVinoEngine:
     def __init__(self, path: Path, threads: int = 1) -> None:
         try:
             openvino = load_openvino()
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise EngineUnavailableError(
                 "the CPU engine needs OpenVINO: install it with 'pip install openvino'"
+            ) from error
+        except ImportError as error:  # seen where its libraries miss one of the system's
+            raise EngineUnavailableError(
+                f"OpenVINO is installed but cannot be loaded ({error}): on Windows install the Microsoft Visual C++ "
+                "Redistributable, elsewhere install openvino anew"
             ) from error
         self._core = openvino.Core()
         self._path, self._threads = path, threads
