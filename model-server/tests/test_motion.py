@@ -39,6 +39,18 @@ def test_a_bright_spot_is_a_positive_deviation_in_its_frame_and_a_dark_one_negat
     assert np.abs(after[20:24, 30:34].mean() - NEUTRAL) < 15
 
 
+def test_a_mean_of_deviations_shows_what_moves_slowly_and_is_less_noisy() -> None:
+    frames = noisy(40)
+    frames[20:28, 20:26, 30:36] += 8
+    made = features_of(frames, FeatureSpec("s", 1, ("deviation", "deviation-8:-1", "deviation+1:+8")))
+    now, before, after = made.frame(28).astype(float) - NEUTRAL
+    assert before[20:26, 30:36].mean() > 30 > 5 > abs(now[20:26, 30:36].mean())
+    assert before.std() < now.std()
+    assert abs(after[20:26, 30:36].mean()) < 8
+    assert (made.frame(0)[1] == NEUTRAL).all()  # nothing comes before the first frame
+    assert (made.frame(39)[2] == NEUTRAL).all()
+
+
 def test_deviations_are_in_units_of_the_noise() -> None:
     quiet, loud = (np.random.default_rng(1).normal(1000, sd, (40, 64, 64)) for sd in (5, 50))
     spreads = [
@@ -66,7 +78,7 @@ def test_neighbours_of_a_drifting_film_are_brought_to_the_frames_place() -> None
 def test_first_and_last_frame_have_features() -> None:
     made = features_of(noisy(4), MOTION)
     for i in range(4):
-        assert made.frame(i).shape == (7, 64, 80)
+        assert made.frame(i).shape == (len(MOTION.channels), 64, 80)
 
 
 @pytest.mark.parametrize("spec", [MOTION, PAPER, AUTHORS])

@@ -148,7 +148,7 @@ def test_samples_stand_on_the_grid_of_their_features() -> None:
     )
     made = simulate(recipe, 1)
     got = extract(made.film, made.truth, MOTION, frames=6, rng=np.random.default_rng(0))
-    assert got.features.shape == (6, 7, 160, 160)
+    assert got.features.shape == (6, len(MOTION.channels), 160, 160)
     assert sum(len(rows) for rows in got.truth) > 0
 
 
@@ -335,7 +335,8 @@ checkpoint_every = 4
     assert command.run(arguments(command, str(path))) == 0
     model = load_model("mine")
     assert model.card.training["config"]["annotated"][1]["role"] == "validation"
-    assert model.engine("openvino").run(np.full((7, 32, 48), NEUTRAL, np.uint8)).shape == (OUTPUTS, 8, 12)
+    features = np.full((len(MOTION.channels), 32, 48), NEUTRAL, np.uint8)
+    assert model.engine("openvino").run(features).shape == (OUTPUTS, 8, 12)
     assert (tmp_path / "mine.work" / "loss.svg").read_text(encoding="utf-8").startswith("<svg")
     # A model of the registry can be the start of another, if features and net are the same.
     tuned = replace(read_config(path).model, name="tuned", start_from="mine 1")
@@ -352,7 +353,8 @@ checkpoint_every = 4
 
 def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:
     films = [samples([[20, 37, 0, 0], [40, 12, 2, 0]])]
-    films = [replace(films[0], features=np.repeat(films[0].features, 4, axis=1)[:, :7])]
+    channels = len(MOTION.channels)
+    films = [replace(films[0], features=np.repeat(films[0].features, 5, axis=1)[:, :channels])]
     model = ModelSettings("a", widths=(4, 4, 4, 4), depths=(1, 1, 1))
     steps = Optimisation(iterations=6, batch=2, crop=48, warm_up=2, checkpoint_every=3, bfloat16=False)
     config = TrainingConfig(model, (SimulatedSet("water", 1, 1),), (SimulatedSet("water", 1, 2),), optimisation=steps)

@@ -23,6 +23,8 @@ from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
 from memtrack.scene import Scene
 from memtrack.stabilisation import overlap
 
+MEAN_GAIN = 2.0
+
 
 @dataclass(frozen=True, slots=True)
 class FeatureSpec:
@@ -46,7 +48,7 @@ class FeatureSpec:
             raise SettingsError(f"feature channels {unknown} are unknown: use some of {known}")
 
 
-_NEIGHBOUR = re.compile(r"deviation([+-]\d{1,2})?")
+_NEIGHBOUR = re.compile(r"deviation([+-]\d{1,2})?(?::([+-]\d{1,2}))?")
 
 
 class FilmFeatures:
@@ -58,8 +60,8 @@ class FilmFeatures:
     def __init__(self, scene: Scene, spec: FeatureSpec) -> None:
         self.film, self.motion, self.scene, self.spec = scene.film, scene.motion, scene, spec
         self._known: dict[int, tuple[Channel, Channel]] = {}
-        offsets = [_offset(c) for c in spec.channels if _NEIGHBOUR.fullmatch(c)]
-        self._reach = max([abs(o) for o in offsets], default=0)
+        self._sum = np.empty((scene.film.height, scene.film.width), np.float32)
+        self._reach = max([abs(o) for c in spec.channels if _NEIGHBOUR.fullmatch(c) for o in _offsets(c)], default=0)
 
     def frame(self, index: int) -> UInt8[np.ndarray, "channel height width"]:
         """Channels of frame `index`, on the grid of its aligned frame: a place found at (x, y) lies at
@@ -78,7 +80,8 @@ class FilmFeatures:
 
     def _channel(self, name: str, index: int, current: Callable[[], Image]) -> Channel:
         if _NEIGHBOUR.fullmatch(name):
-            return self._neighbour(index, _offset(name))
+            first, last = _offsets(name)
+            return self._neighbour(index, first) if first == last else self._mean(index, first, last)
         return _CHANNELS[name](self, index, current)
 
     def _deviation_values(self, index: int, aligned: Image) -> Image:
@@ -99,6 +102,27 @@ class FilmFeatures:
     def _neighbour(self, index: int, offset: int) -> Channel:
         other = min(max(index + offset, 0), self.film.frame_count - 1)
         return self._at_place_of(index, other, self._grey_and_deviation(other)[1], NEUTRAL)
+
+    def _mean(self, index: int, first: int, last: int) -> Channel:
+        """Mean of the deviations of the frames from `index + first` to `index + last` that the film has: what moves
+        slowly stands out of the noise. Its own noise is smaller, so it is drawn `MEAN_GAIN` times as large."""
+        others = range(max(index + first, 0), min(index + last, self.film.frame_count - 1) + 1)
+        if not others:
+            return np.full((self.film.height, self.film.width), NEUTRAL, np.uint8)
+        total = self._sum
+        total[...] = 0
+        unmoved = 0
+        for other in others:
+            shift = np.subtract(self.scene.place(other), self.scene.place(index))
+            target, source = overlap(total.shape, shift)
+            cv2.accumulate(self._grey_and_deviation(other)[1][source], total[target])
+            if shift.any():  # what this frame does not show counts as neutral
+                total[target] -= NEUTRAL
+            else:
+                unmoved += 1
+        gain = MEAN_GAIN / len(others)
+        mean = cv2.addWeighted(total, gain, total, 0, NEUTRAL - gain * unmoved * NEUTRAL, dtype=cv2.CV_8U)
+        return np.asarray(mean, np.uint8)
 
     def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:
         """`image` of frame `other` where the scene stands in frame `index`."""
@@ -147,9 +171,11 @@ class FilmFeatures:
         return as_bytes(np.clip((image - self.scene.level(index)) * scale + NEUTRAL, 0, 255))
 
 
-def _offset(channel: str) -> int:
+def _offsets(channel: str) -> tuple[int, int]:
+    """First and last frame of a deviation channel, as offsets from the current one."""
     match = _NEIGHBOUR.fullmatch(channel)
-    return int(match[1]) if match and match[1] else 0
+    first = int(match[1]) if match and match[1] else 0
+    return first, int(match[2]) if match and match[2] else first
 
 
 _CHANNELS: dict[str, Callable[[FilmFeatures, int, Callable[[], Image]], Channel]] = {
@@ -163,9 +189,15 @@ _CHANNELS: dict[str, Callable[[FilmFeatures, int, Callable[[], Image]], Channel]
 }
 
 MOTION = FeatureSpec(
-    "motion", 1, ("grey", "deviation", "deviation-2", "deviation+2", "deviation-6", "deviation+6", "spread")
+    "motion",
+    2,
+    (
+        *("grey", "deviation", "deviation-2", "deviation+2", "deviation-6", "deviation+6", "spread"),
+        *("deviation-8:-1", "deviation+1:+8"),
+    ),
 )
-"""Ours: the signed deviation of the frame and of four neighbours, the frame, and how restless each pixel is."""
+"""Ours: the signed deviation of the frame, of four neighbours and of the eight frames before and after, the frame, and
+how restless each pixel is."""
 PAPER = FeatureSpec("paper", 1, ("frame", "flow", "abs_deviation"))
 """The paper's three channels."""
 AUTHORS = FeatureSpec("authors", 1, ("frame", "farneback", "median"))

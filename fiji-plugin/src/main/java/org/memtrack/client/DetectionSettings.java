@@ -34,9 +34,9 @@ public record DetectionSettings(
 
     private static final Pattern NAME = Pattern.compile("[a-z0-9_.-]{0,64}");
 
-    /** The default model, at maximum precision, over the whole film. */
+    /** The default model over the whole film, at maximum F1: false positives are dropped with their tracks. */
     public static final DetectionSettings DEFAULTS =
-            new DetectionSettings("", "", Criterion.MAXIMUM_PRECISION, null, null, null, true, null, null);
+            new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, null, null);
 
     public DetectionSettings {
         if (!NAME.matcher(model).matches()) {

@@ -20,7 +20,7 @@ public enum TrackOption {
     CRITERION(
             "criterion",
             "Thresholds for",
-            "maximum precision",
+            "maximum F1",
             "which of the model's stored score thresholds to use",
             "maximum precision",
             "maximum F1"),

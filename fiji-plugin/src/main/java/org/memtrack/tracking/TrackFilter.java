@@ -20,7 +20,7 @@ import org.memtrack.detection.Level;
  */
 public record TrackFilter(int minimumLength, int minimumLengthAtEdge, double minimumScore) {
     /** What the models' calibrated scores are asked for: chosen on simulated films of their own. */
-    private static final double SCORE = 0.4;
+    private static final double SCORE = 0.3;
 
     public TrackFilter {
         requireLength("track length", minimumLength);

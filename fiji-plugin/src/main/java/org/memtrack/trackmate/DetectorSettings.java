@@ -45,7 +45,7 @@ final class DetectorSettings {
         Map<String, Object> map = new LinkedHashMap<>();
         map.put(MODEL, "");
         map.put(MODEL_VERSION, "");
-        map.put(THRESHOLDS, ThresholdSource.MAXIMUM_PRECISION.name());
+        map.put(THRESHOLDS, ThresholdSource.MAXIMUM_F1.name());
         map.put(THRESHOLD_LOW, 0.5);
         map.put(THRESHOLD_MEDIUM, 0.5);
         map.put(THRESHOLD_HIGH, 0.5);

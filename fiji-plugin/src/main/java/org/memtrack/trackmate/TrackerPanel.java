@@ -22,7 +22,7 @@ final class TrackerPanel extends ConfigurationPanel {
     private final JComboBox<Choice<Interpolation>> interpolation = new JComboBox<>(Choice.INTERPOLATIONS);
     private final JSpinner minimumTrackLength = Form.whole(60, 1, 1_000_000);
     private final JSpinner minimumTrackLengthAtEdge = Form.whole(30, 1, 1_000_000);
-    private final JSpinner minimumTrackScore = Form.number(0.4, 0, 1, 0.05);
+    private final JSpinner minimumTrackScore = Form.number(0.3, 0, 1, 0.05);
 
     TrackerPanel(@Nullable ImagePlus image) {
         Form form = new Form(this);

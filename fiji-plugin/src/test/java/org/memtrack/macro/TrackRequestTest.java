@@ -59,12 +59,12 @@ class TrackRequestTest {
     @Test
     void aShortFilmKeepsTracksOfHalfItsLengthUnlessTheUserSaysOtherwise() {
         assertThat(of("output=out").settingsFor(120)).isEqualTo(TrackingSettings.DEFAULTS);
-        assertThat(of("output=out").settingsFor(119).tracking().filter()).isEqualTo(new TrackFilter(59, 30, 0.4));
+        assertThat(of("output=out").settingsFor(119).tracking().filter()).isEqualTo(new TrackFilter(59, 30, 0.3));
         assertThat(of("output=out min_length_at_edge=7")
                         .settingsFor(60)
                         .tracking()
                         .filter())
-                .isEqualTo(new TrackFilter(30, 7, 0.4));
+                .isEqualTo(new TrackFilter(30, 7, 0.3));
         assertThat(of("output=out preset=water")
                         .settingsFor(1)
                         .tracking()
@@ -92,7 +92,7 @@ class TrackRequestTest {
                         .settings()
                         .tracking()
                         .filter())
-                .isEqualTo(new TrackFilter(12, 12, 0.4));
+                .isEqualTo(new TrackFilter(12, 12, 0.3));
         assertThat(of("output=out min_length=12 min_length_at_edge=8 min_score=0")
                         .settings()
                         .tracking()
