@@ -32,6 +32,7 @@ RADII_PX = (2.5, 4.0, 6.0)
 SPOTS_A_FRAME = (4, 6, 8, 10, 13, 16, 20, 25, 32, 40, 50, 64, 80, 100)
 """Thresholds: each lets this number of spots a frame through, on average."""
 LINK_PX, GAP_FRAMES = 15, 2
+TRACKMATE_SECONDS = 3600
 LOOKED_AT = 5
 """Frames, spread over the film, that radius and sign of detections are chosen by."""
 NAMES = {
@@ -66,7 +67,11 @@ def trackmate(film: Made, class_path: str, folder: Path) -> dict[str, Scores]:
         source = Path(__file__).with_name("TrackMatePeer.java")
         counts, radii = (",".join(map(str, values)) for values in (SPOTS_A_FRAME, RADII_PX))
         words = ["java", "-Xmx4g", "-Djava.awt.headless=true", "-cp", class_path, str(source)]
-        subprocess.run([*words, str(given), str(table), radii, counts, str(min(film.least_lengths))], check=True)
+        subprocess.run(
+            [*words, str(given), str(table), radii, counts, str(min(film.least_lengths))],
+            check=True,
+            timeout=TRACKMATE_SECONDS,
+        )
         given.unlink()
         results[title] = _best(film, _read(table), f"{sign}, ")
     return results

@@ -71,7 +71,7 @@ public record TrackRequest(
         }
         int atEdge = options.containsKey(MIN_LENGTH_AT_EDGE.key())
                 ? filter.minimumLengthAtEdge()
-                : TrackFilter.upTo(longest).minimumLengthAtEdge();
+                : TrackFilter.ofSwimmers(longest).minimumLengthAtEdge();
         TrackFilter shorter = new TrackFilter(longest, atEdge, filter.minimumScore());
         return new TrackingSettings(settings.detection(), tracking.with(shorter), settings.server());
     }

@@ -147,9 +147,8 @@ final class CarriedPython implements EnvironmentStart {
             for (Path library : list(folder.resolve("lib"), Pattern.compile("vcruntime.*\\.dll"))) {
                 Files.copy(library, folder.resolve(library.getFileName()));
             }
-            // The library of the stable interface, which many packages link, only passes calls on; the jar lacks it.
-            // The
-            // system knows a hard link for the same library; a copy would be a second interpreter, and crash.
+            // The jar lacks the library of the stable interface, which many packages link; it only passes calls on.
+            // A hard link counts as the same library (seen under Wine); a copy would be a second interpreter, and crash.
             for (Path library : list(folder, WINDOWS_LIBRARY)) {
                 Files.createLink(folder.resolve("python3.dll"), library);
             }

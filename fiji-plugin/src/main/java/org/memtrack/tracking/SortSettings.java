@@ -24,10 +24,10 @@ public record SortSettings(
 
     /** Films in collagen and other dense media, where swimmers are slow: tracks of 60 frames. */
     public static final SortSettings COLLAGEN =
-            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.upTo(60));
+            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofSwimmers(60));
 
     /** Films in water, where swimmers soon leave the focal plane: tracks of 30 frames. */
-    public static final SortSettings WATER = COLLAGEN.with(TrackFilter.upTo(30));
+    public static final SortSettings WATER = COLLAGEN.with(TrackFilter.ofSwimmers(30));
 
     public static final SortSettings DEFAULTS = COLLAGEN;
 

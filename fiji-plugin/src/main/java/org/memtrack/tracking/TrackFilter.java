@@ -36,7 +36,7 @@ public record TrackFilter(int minimumLength, int minimumLengthAtEdge, double min
     }
 
     /** Ours: half the length is enough at the edge, and the score is asked too. */
-    public static TrackFilter upTo(int frames) {
+    public static TrackFilter ofSwimmers(int frames) {
         return new TrackFilter(frames, (frames + 1) / 2, SCORE);
     }
 

@@ -11,7 +11,7 @@ class SortSettingsTest {
     @Test
     void thePresetsDifferInTheLeastLengthOnly() {
         assertThat(SortSettings.COLLAGEN.filter().minimumLength()).isEqualTo(60);
-        assertThat(SortSettings.WATER).isEqualTo(SortSettings.COLLAGEN.with(TrackFilter.upTo(30)));
+        assertThat(SortSettings.WATER).isEqualTo(SortSettings.COLLAGEN.with(TrackFilter.ofSwimmers(30)));
     }
 
     @Test
