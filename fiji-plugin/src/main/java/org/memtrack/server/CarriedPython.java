@@ -148,7 +148,7 @@ final class CarriedPython implements EnvironmentStart {
                 Files.copy(library, folder.resolve(library.getFileName()));
             }
             // The jar lacks the library of the stable interface, which many packages link; it only passes calls on.
-            // A hard link counts as the same library (seen under Wine); a copy would be a second interpreter, and crash.
+            // A hard link counts as the same library (seen under Wine); a copy would be another interpreter, and crash.
             for (Path library : list(folder, WINDOWS_LIBRARY)) {
                 Files.createLink(folder.resolve("python3.dll"), library);
             }
