@@ -3,7 +3,7 @@
 
 LoG and trackpy's locate (`memtrack.evaluation.baselines`) are linked by trackpy, TrackMate's LoG detector by its
 simple LAP tracker; both with 15 px and gaps of 2 frames, TrackMate's own defaults. Tracks must be as long as ours
-inside the field, or as ours at its edge, whichever serves the truth better.
+that are not sure to be real, or half as long, whichever serves the truth better.
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ import java.util.Locale;
 import java.util.Optional;
 import java.util.stream.Stream;
 import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.TrackFilter;
 
 /** An option of the command "MEMTrack Track": the one table that macro, dialog, recorder and manual derive from. */
 public enum TrackOption {
@@ -73,12 +74,14 @@ public enum TrackOption {
             Kind.INTEGER,
             "",
             "shorter tracks are dropped; the preset's, or half a short film, if left out"),
-    MIN_LENGTH_AT_EDGE(
-            "min_length_at_edge",
-            "Least length at the edge (frames)",
+    MIN_LENGTH_SURE(
+            "min_length_sure",
+            "Least length of sure tracks (frames)",
             Kind.INTEGER,
             "",
-            "likewise for tracks that begin or end at the edge of the field; min_length, or half the preset's, if left out"),
+            "likewise for tracks that are sure to be real, as the edge of the field cuts them off or their mean score is at least "
+                    + TrackFilter.SURE_SCORE
+                    + "; min_length, or a quarter of the preset's, if left out"),
     MIN_SCORE(
             "min_score",
             "Least track score",

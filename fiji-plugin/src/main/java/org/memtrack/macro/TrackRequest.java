@@ -69,10 +69,10 @@ public record TrackRequest(
         if (options.containsKey(MIN_LENGTH.key()) || filter.minimumLength() <= longest) {
             return settings;
         }
-        int atEdge = options.containsKey(MIN_LENGTH_AT_EDGE.key())
-                ? filter.minimumLengthAtEdge()
-                : TrackFilter.ofSwimmers(longest).minimumLengthAtEdge();
-        TrackFilter shorter = new TrackFilter(longest, atEdge, filter.minimumScore());
+        int ifSure = options.containsKey(MIN_LENGTH_SURE.key())
+                ? filter.minimumLengthIfSure()
+                : TrackFilter.ofSwimmers(longest).minimumLengthIfSure();
+        TrackFilter shorter = new TrackFilter(longest, ifSure, filter.minimumScore());
         return new TrackingSettings(settings.detection(), tracking.with(shorter), settings.server());
     }
 
@@ -125,11 +125,11 @@ public record TrackRequest(
     }
 
     private static TrackFilter filter(OptionValues values, TrackFilter preset) {
-        // Who asks for a length gets no shorter track, at the edge neither.
+        // Who asks for a length gets no shorter track, however sure it is.
         return new TrackFilter(
                 values.integer(MIN_LENGTH).orElse(preset.minimumLength()),
-                values.integer(MIN_LENGTH_AT_EDGE)
-                        .orElse(values.integer(MIN_LENGTH).orElse(preset.minimumLengthAtEdge())),
+                values.integer(MIN_LENGTH_SURE)
+                        .orElse(values.integer(MIN_LENGTH).orElse(preset.minimumLengthIfSure())),
                 values.number(MIN_SCORE).orElse(preset.minimumScore()));
     }
 

@@ -10,6 +10,7 @@ import javax.swing.JSpinner;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.TrackFilter;
 
 /** The tracker's settings in TrackMate's wizard. */
 final class TrackerPanel extends ConfigurationPanel {
@@ -21,7 +22,7 @@ final class TrackerPanel extends ConfigurationPanel {
     private final JSpinner minimumHits = Form.whole(0, 0, 100_000);
     private final JComboBox<Choice<Interpolation>> interpolation = new JComboBox<>(Choice.INTERPOLATIONS);
     private final JSpinner minimumTrackLength = Form.whole(60, 1, 1_000_000);
-    private final JSpinner minimumTrackLengthAtEdge = Form.whole(30, 1, 1_000_000);
+    private final JSpinner minimumTrackLengthIfSure = Form.whole(15, 1, 1_000_000);
     private final JSpinner minimumTrackScore = Form.number(0.3, 0, 1, 0.05);
 
     TrackerPanel(@Nullable ImagePlus image) {
@@ -55,9 +56,10 @@ final class TrackerPanel extends ConfigurationPanel {
                 minimumTrackLength,
                 "Shorter tracks are dropped, interpolated frames counted; 60 in collagen and 30 in water in the paper.");
         form.row(
-                "Least length at the edge",
-                minimumTrackLengthAtEdge,
-                "The same for tracks that begin or end at the edge of the film, which cuts them short.");
+                "Least length of sure tracks",
+                minimumTrackLengthIfSure,
+                "The same for tracks that are sure to be real: they begin or end at the edge of the film, which cuts them"
+                        + " short, or their track score, as below, is at least " + TrackFilter.SURE_SCORE + ".");
         form.row(
                 "Least track score",
                 minimumTrackScore,
@@ -79,7 +81,7 @@ final class TrackerPanel extends ConfigurationPanel {
         minimumHits.setValue(settings.get(TrackerSettings.MINIMUM_HITS));
         Choice.select(interpolation, settings.get(TrackerSettings.INTERPOLATION));
         minimumTrackLength.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH));
-        minimumTrackLengthAtEdge.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH_AT_EDGE));
+        minimumTrackLengthIfSure.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_LENGTH_IF_SURE));
         minimumTrackScore.setValue(settings.get(TrackerSettings.MINIMUM_TRACK_SCORE));
     }
 
@@ -92,7 +94,7 @@ final class TrackerPanel extends ConfigurationPanel {
         settings.put(TrackerSettings.MINIMUM_HITS, minimumHits.getValue());
         settings.put(TrackerSettings.INTERPOLATION, Choice.selected(interpolation));
         settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH, minimumTrackLength.getValue());
-        settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH_AT_EDGE, minimumTrackLengthAtEdge.getValue());
+        settings.put(TrackerSettings.MINIMUM_TRACK_LENGTH_IF_SURE, minimumTrackLengthIfSure.getValue());
         settings.put(TrackerSettings.MINIMUM_TRACK_SCORE, ((Number) minimumTrackScore.getValue()).doubleValue());
         return settings;
     }

@@ -17,7 +17,7 @@ final class TrackerSettings {
     static final String MINIMUM_HITS = "MINIMUM_HITS";
     static final String INTERPOLATION = "INTERPOLATION";
     static final String MINIMUM_TRACK_LENGTH = "MINIMUM_TRACK_LENGTH";
-    static final String MINIMUM_TRACK_LENGTH_AT_EDGE = "MINIMUM_TRACK_LENGTH_AT_EDGE";
+    static final String MINIMUM_TRACK_LENGTH_IF_SURE = "MINIMUM_TRACK_LENGTH_IF_SURE";
     static final String MINIMUM_TRACK_SCORE = "MINIMUM_TRACK_SCORE";
 
     static final SettingsMap MAP = new SettingsMap(MemtrackTrackerFactory.NAME, toMap(SortSettings.DEFAULTS));
@@ -32,7 +32,7 @@ final class TrackerSettings {
         map.put(MINIMUM_HITS, settings.minimumHits());
         map.put(INTERPOLATION, settings.interpolation().name());
         map.put(MINIMUM_TRACK_LENGTH, settings.filter().minimumLength());
-        map.put(MINIMUM_TRACK_LENGTH_AT_EDGE, settings.filter().minimumLengthAtEdge());
+        map.put(MINIMUM_TRACK_LENGTH_IF_SURE, settings.filter().minimumLengthIfSure());
         map.put(MINIMUM_TRACK_SCORE, settings.filter().minimumScore());
         return map;
     }
@@ -52,7 +52,7 @@ final class TrackerSettings {
                 SettingsMap.choice(Interpolation.class, INTERPOLATION, map),
                 new TrackFilter(
                         (Integer) map.get(MINIMUM_TRACK_LENGTH),
-                        (Integer) map.get(MINIMUM_TRACK_LENGTH_AT_EDGE),
+                        (Integer) map.get(MINIMUM_TRACK_LENGTH_IF_SURE),
                         (Double) map.get(MINIMUM_TRACK_SCORE)));
     }
 }

@@ -36,7 +36,7 @@ class TrackRequestTest {
         TrackRequest request = of("output=out preset=water criterion=[Maximum F1] model=mine model_version=2"
                 + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false overlay=false frames=z channel=2"
                 + " first_frame=3 last_frame=40 threshold_low=0.1 threshold_medium=0.2 threshold_high=0.3 max_size=33"
-                + " nms_iou=0.6 min_length_at_edge=20 min_score=0.25 max_age=24 min_hits=4 iou_gate=0.07 association=overlap interpolation=authors"
+                + " nms_iou=0.6 min_length_sure=20 min_score=0.25 max_age=24 min_hits=4 iou_gate=0.07 association=overlap interpolation=authors"
                 + " python=/p/python server=host:1");
         assertThat(request.film())
                 .isEqualTo(new FilmOptions(FrameAxis.Z, 2, 3, 40, OptionalDouble.of(0.25), OptionalDouble.of(0.0167)));
@@ -59,11 +59,8 @@ class TrackRequestTest {
     @Test
     void aShortFilmKeepsTracksOfHalfItsLengthUnlessTheUserSaysOtherwise() {
         assertThat(of("output=out").settingsFor(120)).isEqualTo(TrackingSettings.DEFAULTS);
-        assertThat(of("output=out").settingsFor(119).tracking().filter()).isEqualTo(new TrackFilter(59, 30, 0.3));
-        assertThat(of("output=out min_length_at_edge=7")
-                        .settingsFor(60)
-                        .tracking()
-                        .filter())
+        assertThat(of("output=out").settingsFor(119).tracking().filter()).isEqualTo(new TrackFilter(59, 15, 0.3));
+        assertThat(of("output=out min_length_sure=7").settingsFor(60).tracking().filter())
                 .isEqualTo(new TrackFilter(30, 7, 0.3));
         assertThat(of("output=out preset=water")
                         .settingsFor(1)
@@ -93,7 +90,7 @@ class TrackRequestTest {
                         .tracking()
                         .filter())
                 .isEqualTo(new TrackFilter(12, 12, 0.3));
-        assertThat(of("output=out min_length=12 min_length_at_edge=8 min_score=0")
+        assertThat(of("output=out min_length=12 min_length_sure=8 min_score=0")
                         .settings()
                         .tracking()
                         .filter())
@@ -113,7 +110,7 @@ class TrackRequestTest {
                     output=o pixel_size=NaN       | pixel size must be a positive number
                     output=o iou_gate=1           | IoU gate
                     output=o min_length=0         | minimum track length
-                    output=o min_length_at_edge=0 | track length at the edge
+                    output=o min_length_sure=0    | length of sure tracks
                     output=o min_score=1.5        | track score must lie in 0 to 1, not 1.5
                     output=o nms_iou=2            | overlap
                     output=o threshold_low=0.5    | Only some thresholds

@@ -16,18 +16,48 @@ class TrackFilterTest {
 
     @Test
     void aTrackIsLongEnoughInTheMiddleWithTheFullLengthAndAtTheEdgeWithLess() {
-        assertThat(FILTER.keeps(track(10, 100, 0, 1, Level.LOW), FIELD)).isTrue();
-        assertThat(FILTER.keeps(track(9, 100, 0, 1, Level.LOW), FIELD)).isFalse();
-        assertThat(FILTER.keeps(track(5, 14, 0, 1, Level.LOW), FIELD)).isTrue();
-        assertThat(FILTER.keeps(track(5, 172, 4, 1, Level.LOW), FIELD)).isTrue();
-        assertThat(FILTER.keeps(track(5, 168, 0, 1, Level.LOW), FIELD)).isFalse();
-        assertThat(FILTER.keeps(track(4, 14, 0, 1, Level.LOW), FIELD)).isFalse();
+        assertThat(FILTER.keeps(track(10, 100, 0, 0.8, Level.LOW), FIELD)).isTrue();
+        assertThat(FILTER.keeps(track(9, 100, 0, 0.8, Level.LOW), FIELD)).isFalse();
+        assertThat(FILTER.keeps(track(5, 14, 0, 0.8, Level.LOW), FIELD)).isTrue();
+        assertThat(FILTER.keeps(track(5, 172, 4, 0.8, Level.LOW), FIELD)).isTrue();
+        assertThat(FILTER.keeps(track(5, 168, 0, 0.8, Level.LOW), FIELD)).isFalse();
+        assertThat(FILTER.keeps(track(4, 14, 0, 0.8, Level.LOW), FIELD)).isFalse();
     }
 
     @Test
-    void noTrackIsShorterThanItMayBeAnywhereWhenTheFieldIsNotKnown() {
-        assertThat(FILTER.keeps(track(9, 14, 0, 1, Level.LOW), null)).isFalse();
-        assertThat(FILTER.keeps(track(10, 14, 0, 1, Level.LOW), null)).isTrue();
+    void aShortTrackWhoseMeanScoreIsHighIsKept() {
+        assertThat(FILTER.keeps(track(5, 100, 0, 0.91, Level.LOW), FIELD)).isTrue();
+        assertThat(FILTER.keeps(track(5, 100, 0, 0.91, Level.LOW), null)).isTrue();
+        assertThat(FILTER.keeps(track(4, 100, 0, 0.91, Level.LOW), FIELD)).isFalse();
+        assertThat(FILTER.keeps(track(9, 100, 0, 0.89, Level.LOW), FIELD)).isFalse();
+        assertThat(FILTER.keeps(seenEvery(2, 9, 1), FIELD)).isFalse();
+    }
+
+    @Test
+    void aShortTrackAtTheEdgeNeedsTheLeastScoreToo() {
+        assertThat(FILTER.keeps(track(5, 14, 0, 0.41, Level.LOW), FIELD)).isTrue();
+        assertThat(FILTER.keeps(track(5, 14, 0, 0.39, Level.LOW), FIELD)).isFalse();
+    }
+
+    @Test
+    void noPlaceMakesATrackSureWhenTheFieldIsNotKnown() {
+        assertThat(FILTER.keeps(track(9, 14, 0, 0.8, Level.LOW), null)).isFalse();
+        assertThat(FILTER.keeps(track(10, 14, 0, 0.8, Level.LOW), null)).isTrue();
+    }
+
+    @Test
+    void aLengthOfItsOwnHoldsForSureTracksToo() {
+        assertThat(TrackFilter.ofLength(10).keeps(track(9, 14, 0, 1, Level.LOW), FIELD))
+                .isFalse();
+        assertThat(new TrackFilter(5, 10, 0).keeps(track(5, 14, 0, 1, Level.LOW), FIELD))
+                .isTrue();
+    }
+
+    @Test
+    void oursAsksAQuarterOfTheLengthOfSureTracksRoundedUp() {
+        assertThat(TrackFilter.ofSwimmers(60)).isEqualTo(new TrackFilter(60, 15, 0.3));
+        assertThat(TrackFilter.ofSwimmers(30)).isEqualTo(new TrackFilter(30, 8, 0.3));
+        assertThat(TrackFilter.ofSwimmers(1)).isEqualTo(new TrackFilter(1, 1, 0.3));
     }
 
     @Test
@@ -41,6 +71,9 @@ class TrackFilterTest {
     @Test
     void scoresOfOtherDetectorsAreNotAsked() {
         assertThat(FILTER.keeps(track(10, 100, 0, 0.01, Level.UNSPECIFIED), FIELD))
+                .isTrue();
+        assertThat(FILTER.keeps(track(9, 100, 0, 1, Level.UNSPECIFIED), FIELD)).isFalse();
+        assertThat(FILTER.keeps(track(5, 14, 0, 0.01, Level.UNSPECIFIED), FIELD))
                 .isTrue();
     }
 

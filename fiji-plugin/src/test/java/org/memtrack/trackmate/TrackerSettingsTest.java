@@ -12,7 +12,7 @@ import org.memtrack.tracking.TrackFilter;
 
 class TrackerSettingsTest {
     private static final SortSettings OTHERS =
-            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, TrackFilter.ofLength(13));
+            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, new TrackFilter(13, 7, 0.2));
 
     @Test
     void settingsSurviveTheMap() {
