@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import importlib
+import os
 import re
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 import memtrack
 from memtrack.libraries import engine_threads, library_versions, working_devices
@@ -44,3 +48,11 @@ def test_versions_and_devices_are_those_of_this_machine() -> None:
     assert {"numpy", "openvino", "grpcio"} <= set(library_versions())
     assert "openvino CPU" in working_devices()
     assert 1 <= engine_threads() <= 8
+
+
+def test_windows_is_told_where_the_runtime_of_cpp_lies(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(os, "add_dll_directory", told.append, raising=False)
+    monkeypatch.setattr(sys, "platform", "win32")
+    importlib.reload(memtrack)
+    assert told == [sys.prefix]

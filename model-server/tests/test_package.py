@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -41,6 +42,10 @@ def check_wheel(wheel: Path) -> None:
     assert wheel.name.endswith("-py3-none-any.whl")
     with zipfile.ZipFile(wheel) as content:
         names = set(content.namelist())
+        (metadata,) = (content.read(name).decode() for name in names if name.endswith(".dist-info/METADATA"))
+    runtime = re.findall("^Requires-Dist: msvc-runtime.*", metadata, re.MULTILINE)
+    assert len(runtime) == 1
+    assert 'sys_platform == "win32"' in runtime[0]
     assert names >= GENERATED
     assert {"memtrack/__main__.py", "memtrack/py.typed", "memtrack/cli/serve.py", "memtrack/video/tiff.py"} <= names
     assert any(name.endswith(".dist-info/licenses/LICENSE") for name in names)

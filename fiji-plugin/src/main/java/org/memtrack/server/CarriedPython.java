@@ -84,12 +84,6 @@ final class CarriedPython implements EnvironmentStart {
         return jar;
     }
 
-    /** On Windows the library of C++, which OpenVINO needs and which not every Windows has. */
-    @Override
-    public List<String> packages() {
-        return windows() ? List.of("msvc-runtime") : List.of();
-    }
-
     /** @throws DetectorException when the jar is damaged */
     @Override
     public void make(Path folder, Progress progress) throws IOException {

@@ -131,21 +131,19 @@ public final class EnvironmentInstaller {
             start.make(folder, progress.between(0.02, 0.1));
             Path parcels = folder.resolve("memtrack-wheel");
             wheel.writeTo(parcels);
-            List<String> pip = new ArrayList<>(List.of(
-                    "-m",
-                    "pip",
-                    "install",
-                    "--no-input",
-                    "--disable-pip-version-check",
-                    "--no-warn-script-location",
-                    "--progress-bar=off",
-                    // By its bare name: pip would read a bracket in a path as an extra.
-                    wheel.fileName() + (torch ? "[torch]" : "")));
-            pip.addAll(start.packages());
-            step(
-                    "installing the packages",
-                    made.interpreter().process(pip.toArray(String[]::new)).directory(parcels.toFile()),
-                    progress.between(0.1, 0.9));
+            ProcessBuilder pip = made.interpreter()
+                    .process(
+                            "-m",
+                            "pip",
+                            "install",
+                            "--no-input",
+                            "--disable-pip-version-check",
+                            "--no-warn-script-location",
+                            "--progress-bar=off",
+                            // By its bare name: pip would read a bracket in a path as an extra.
+                            wheel.fileName() + (torch ? "[torch]" : ""))
+                    .directory(parcels.toFile());
+            step("installing the packages", pip, progress.between(0.1, 0.9));
             progress.report("Trying the server", 0.9, OptionalDouble.empty(), "");
             tryServer(made, progress);
             made.use(dataFolder);

@@ -3,11 +3,11 @@ package org.memtrack.server;
 
 import java.io.IOException;
 import java.nio.file.Path;
-import java.util.List;
 import java.util.concurrent.CancellationException;
 import org.memtrack.client.Progress;
 
 /** How the folder of an environment comes about, before the server is installed into it. */
+@FunctionalInterface
 interface EnvironmentStart {
     /**
      * Makes the folder, with a Python and its pip in it.
@@ -16,9 +16,4 @@ interface EnvironmentStart {
      * @throws CancellationException when progress was cancelled
      */
     void make(Path folder, Progress progress) throws IOException;
-
-    /** What pip must install beside the server, for this Python. */
-    default List<String> packages() {
-        return List.of();
-    }
 }
