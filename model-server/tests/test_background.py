@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,7 +10,7 @@ from hypothesis import strategies as st
 from memtrack.background import Background, _order_statistics, aligned_frame, split_drift, temporal_background
 from memtrack.errors import FilmError
 from memtrack.film import ArrayFilm
-from memtrack.stabilisation import FilmMotion
+from memtrack.stabilisation import FilmMotion, measure_motion
 
 
 def still(count: int) -> FilmMotion:
@@ -65,6 +68,28 @@ def test_strips_give_the_same_as_one_piece(monkeypatch: pytest.MonkeyPatch) -> N
     whole = background_of(frames)
     monkeypatch.setattr("memtrack.background.STRIP_BYTES", 7 * 11 * 2 * 5)
     np.testing.assert_array_equal(background_of(frames).median, whole.median)
+
+
+def test_highlights_in_which_the_camera_saturates_stand_still_while_the_lamp_drifts() -> None:
+    scene = np.random.default_rng(5).normal(120, 15, (96, 96))
+    scene[40:50, 40:50] = 290
+    lamp = 1 + 0.08 * np.sin(np.arange(40) / 6)
+    film = ArrayFilm(np.clip(np.rint(scene * lamp[:, None, None]), 0, 255).astype(np.uint8))
+    motion = measure_motion(film, stabilise=False, report=lambda done, total: None)
+    uncut = replace(motion, ceiling=math.inf)
+    assert np.ptp([aligned_frame(film, uncut, i)[45, 45] for i in range(40)]) > 20
+    assert np.ptp([aligned_frame(film, motion, i)[45, 45] for i in range(40)]) < 2
+    dark = aligned_frame(film, uncut, 0) < 180
+    np.testing.assert_array_equal(aligned_frame(film, motion, 0)[dark], aligned_frame(film, uncut, 0)[dark])
+
+
+def test_a_few_flashes_do_not_flatten_a_film() -> None:
+    frames = np.full((60, 32, 32), 100, np.uint8)
+    frames[:, 10, 10] = 200
+    frames[7] = 250
+    film = ArrayFilm(frames)
+    motion = measure_motion(film, stabilise=False, report=lambda done, total: None)
+    assert aligned_frame(film, motion, 0)[10, 10] == pytest.approx(200, rel=0.01)
 
 
 def test_a_nan_is_refused_with_its_frame() -> None:

@@ -10,6 +10,7 @@ where they do not, as in clear water that shows nothing but swimmers, there is n
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -33,10 +34,12 @@ REFERENCE_FRAMES = 25
 @dataclass(frozen=True, slots=True)
 class FilmMotion:
     """Per frame: `drift` (x, y), how far the scene stands from its place in frame 0, in pixels; `gain`, the factor
-    that brings the frame to the film's usual brightness."""
+    that brings the frame to the film's usual brightness. `ceiling`: the highest grey level, after that correction, that
+    all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken."""
 
     drift: Float64[np.ndarray, "frame 2"]
     gain: Float64[np.ndarray, " frame"]
+    ceiling: float = math.inf
 
 
 def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMotion:
@@ -48,18 +51,20 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMoti
     count = film.frame_count
     shrinks = stabilise and count > 1 and min(film.height, film.width) >= 4 * MIN_EDGE
     passes = 2 if shrinks else 1
-    means = np.empty(count)
+    means, brightest = np.empty(count), -math.inf
     chain = _Chain()
     drift = np.zeros((count, 2))
     for i in range(count):
         frame = film.frame(i).astype(np.float32)
-        means[i] = cv2.mean(frame)[0]
+        means[i], brightest = cv2.mean(frame)[0], max(brightest, float(frame.max()))
         if shrinks:
             drift[i] = chain.add(_band_pass(frame, 4)) * 4
         report(i + 1, passes * count)
     if shrinks:
         drift = _refine(film, drift, report)
-    return FilmMotion(drift - drift[0], _gains(means))
+    gain = _gains(means)
+    # A few flashes do not lower the ceiling of the whole film.
+    return FilmMotion(drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)))
 
 
 def _gains(means: Float64[np.ndarray, " frame"]) -> Float64[np.ndarray, " frame"]:
