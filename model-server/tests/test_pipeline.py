@@ -13,8 +13,9 @@ from memtrack.models import Model, load_model
 from memtrack.pipeline import DetectionSettings, detect_film, model_scale
 from memtrack.progress import Stage
 from memtrack.resampling import ScaledFilm
-from memtrack.simulation.film import Recipe, SimulatedFilm, simulate
+from memtrack.simulation.film import SimulatedFilm, simulate
 from memtrack.simulation.optics import Look
+from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import Gait
 
 BRIGHT = Look(length=8, width=4, contrast=60, halo=0.15, halo_radius=10, flip=0, relief=0, relief_angle=0)

@@ -3,6 +3,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 import tifffile
@@ -12,9 +13,11 @@ from memtrack.errors import SettingsError
 from memtrack.motility import motility_of
 from memtrack.simulation import scenes
 from memtrack.simulation.families import FAMILIES, HELD_OUT, draw_recipe
-from memtrack.simulation.film import Recipe, simulate
+from memtrack.simulation.film import simulate
 from memtrack.simulation.optics import Look, apparent_centre, draw
+from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import Gait, World, peak_diffusivity, swim
+from memtrack.simulation.truth import _smoothed_norm
 from memtrack.tracks import Motility
 from memtrack.tracks_io import read_tracks
 
@@ -87,6 +90,30 @@ def test_what_is_too_faint_to_find_does_not_depend_on_the_stage() -> None:
     both = verdicts[0].keys() & verdicts[1].keys()
     assert {verdicts[0][row] for row in both} == {True, False}
     assert all(verdicts[0][row] == verdicts[1][row] for row in both)
+
+
+def test_a_medium_that_moves_hides_faint_bacteria_and_no_strong_ones() -> None:
+    def known(contrast: float, **changes: float) -> float:
+        look = replace(LOOK, contrast=contrast)
+        recipe = replace(QUIET, frames=60, texture=20.0, read_noise=3.0, gaits=(Gait.SWIMMING,) * 20, **changes)
+        return float(1 - simulate(replace(recipe, looks=(look,) * 20), 5).truth.ignored.mean())
+
+    still = known(10.0)
+    assert still > 0.75
+    assert known(10.0, wobble=0.6) < 0.8 * still
+    assert known(10.0, restless=0.5) < 0.5 * still
+    assert known(200.0, wobble=0.6) == known(200.0, restless=0.5) == known(200.0) > 0.75
+
+
+@pytest.mark.parametrize("blur", [0.0, 0.5, 0.8])
+def test_smoothed_noise_disturbs_as_much_as_is_counted(blur: float) -> None:
+    y, x = np.mgrid[-8:9, -8:9]
+    signal = np.exp(-(x * x + 2.0 * y * y) / 18).astype(np.float32)
+    noise = np.random.default_rng(1).standard_normal((1200, 1200)).astype(np.float32)
+    if blur:
+        noise = cv2.GaussianBlur(noise, (0, 0), blur)
+    products = cv2.filter2D(noise / noise.std(), -1, signal)[20:-20, 20:-20]
+    assert products.std() == pytest.approx(_smoothed_norm(signal, blur), rel=0.03)
 
 
 def _well_in(x: float, y: float) -> bool:

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from memtrack.simulation.film import Recipe
 from memtrack.simulation.optics import Look
+from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import Gait
 
 REFERENCE_AREA = 660 * 492
