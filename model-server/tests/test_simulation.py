@@ -93,9 +93,10 @@ def test_what_is_too_faint_to_find_does_not_depend_on_the_stage() -> None:
 
 
 def test_a_medium_that_moves_hides_faint_bacteria_and_no_strong_ones() -> None:
-    def known(contrast: float, **changes: float) -> float:
+    def known(contrast: float, wobble: float = 0.0, restless: float = 0.0) -> float:
         look = replace(LOOK, contrast=contrast)
-        recipe = replace(QUIET, frames=60, texture=20.0, read_noise=3.0, gaits=(Gait.SWIMMING,) * 20, **changes)
+        recipe = replace(QUIET, frames=60, texture=20.0, read_noise=3.0, gaits=(Gait.SWIMMING,) * 20)
+        recipe = replace(recipe, wobble=wobble, restless=restless)
         return float(1 - simulate(replace(recipe, looks=(look,) * 20), 5).truth.ignored.mean())
 
     still = known(10.0)
@@ -109,9 +110,8 @@ def test_a_medium_that_moves_hides_faint_bacteria_and_no_strong_ones() -> None:
 def test_smoothed_noise_disturbs_as_much_as_is_counted(blur: float) -> None:
     y, x = np.mgrid[-8:9, -8:9]
     signal = np.exp(-(x * x + 2.0 * y * y) / 18).astype(np.float32)
-    noise = np.random.default_rng(1).standard_normal((1200, 1200)).astype(np.float32)
-    if blur:
-        noise = cv2.GaussianBlur(noise, (0, 0), blur)
+    white = np.random.default_rng(1).standard_normal((1200, 1200)).astype(np.float32)
+    noise = cv2.GaussianBlur(white, (0, 0), blur) if blur else white
     products = cv2.filter2D(noise / noise.std(), -1, signal)[20:-20, 20:-20]
     assert products.std() == pytest.approx(_smoothed_norm(signal, blur), rel=0.03)
 

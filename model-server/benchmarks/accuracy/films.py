@@ -49,10 +49,11 @@ class Made:
     options: str = ""
 
     @property
-    def least_lengths(self) -> tuple[int, int]:
-        """Frames a track must span by the preset, 60 in collagen and 30 in water, at most half the film; half that."""
+    def least_lengths(self) -> tuple[int, int, int]:
+        """Frames a track must span by the preset, 60 in collagen and 30 in water, at most half the film; half of that,
+        and a quarter."""
         longest = min(30 if self.preset == "water" else 60, self.film.frame_count // 2)
-        return longest, longest // 2
+        return longest, longest // 2, longest // 4
 
 
 @dataclass(frozen=True, slots=True)

@@ -118,7 +118,7 @@ def _smoothed_norm(signal: Float32[np.ndarray, "s s"], blur: float) -> float:
     adds to the product of a frame with `signal`."""
     if not blur:
         return float(np.linalg.norm(signal))
-    padded = cv2.copyMakeBorder(signal, *[4] * 4, cv2.BORDER_CONSTANT, value=0)
+    padded = np.pad(signal, 4)
     impulse = np.zeros((9, 9), np.float32)
     impulse[4, 4] = 1
     smoothed, kernel = (cv2.GaussianBlur(image, (0, 0), blur) for image in (padded, impulse))
