@@ -41,7 +41,8 @@ public record TrackRequest(
     public static TrackRequest of(Map<String, String> options) {
         OptionValues values = new OptionValues(options);
         if (!values.given(OUTPUT)) {
-            throw new DetectorException("No folder for the results is given: add output=[/path/to/folder].");
+            throw new DetectorException(
+                    "No folder for the results is given: choose the output folder (in a macro: output=[/path/to/folder]).");
         }
         try {
             return new TrackRequest(

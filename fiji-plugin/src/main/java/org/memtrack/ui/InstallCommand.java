@@ -55,9 +55,9 @@ public final class InstallCommand implements PlugIn {
         }
         GenericDialog dialog = new GenericDialog("MEMTrack");
         dialog.addMessage(
-                "Makes a Python environment for MEMTrack's detection server in\n%s\n".formatted(DataFolder.path())
+                "Installs what MEMTrack finds cells with, a Python environment, in\n%s\n".formatted(DataFolder.path())
                         + "About 150 MB are downloaded. An older one is replaced when the new one works.");
-        dialog.addStringField("Python (empty: found on the path)", "", 28);
+        dialog.addStringField("Python program (empty: looked for)", "", 28);
         dialog.addCheckbox("Also PyTorch, for training and graphics cards (several GB)", false);
         dialog.showDialog();
         if (dialog.wasCanceled()) {

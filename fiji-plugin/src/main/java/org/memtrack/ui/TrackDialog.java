@@ -41,6 +41,14 @@ final class TrackDialog {
             TrackOption.FIRST_FRAME,
             TrackOption.LAST_FRAME);
 
+    /** Share a row with the option before, so that the page fits on a small laptop. */
+    private static final Set<TrackOption> BESIDE = EnumSet.of(
+            TrackOption.LAST_FRAME,
+            TrackOption.THRESHOLD_MEDIUM,
+            TrackOption.THRESHOLD_HIGH,
+            TrackOption.NMS_IOU,
+            TrackOption.MIN_HITS);
+
     private TrackDialog() {}
 
     /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
@@ -59,9 +67,14 @@ final class TrackDialog {
             return Optional.empty();
         }
         String complaint = "";
+        boolean more = false;
         while (true) {
-            Optional<Boolean> more = page(complaint, true, values);
-            if (more.isEmpty() || more.get() && page("", false, values).isEmpty()) {
+            Optional<Boolean> answer = page(complaint, true, more, values);
+            if (answer.isEmpty()) {
+                return Optional.empty();
+            }
+            more = answer.get();
+            if (more && page("", false, false, values).isEmpty()) {
                 return Optional.empty();
             }
             try {
@@ -86,16 +99,21 @@ final class TrackDialog {
         YesNoCancelDialog question = new YesNoCancelDialog(
                 null,
                 "MEMTrack",
-                "\"%s\" has %d slices in Z and a single frame.\nAre the slices the frames of the film?"
-                        .formatted(image.getTitle(), image.getNSlices()));
+                Commands.wrapped("\"%s\" has %d slices in Z and a single frame. Are the slices the frames of the film?"
+                        .formatted(image.getTitle(), image.getNSlices())));
         if (question.yesPressed()) {
             values.put(TrackOption.FRAMES, "z");
         }
         return !question.cancelPressed();
     }
 
-    /** One page of the dialog: empty when cancelled, otherwise whether the user asks for the other page. */
-    private static Optional<Boolean> page(String complaint, boolean common, Map<TrackOption, String> values) {
+    /**
+     * One page of the dialog: empty when cancelled, otherwise whether the user asks for the other page.
+     *
+     * @param more whether that is ticked when the page opens
+     */
+    private static Optional<Boolean> page(
+            String complaint, boolean common, boolean more, Map<TrackOption, String> values) {
         GenericDialog dialog = new GenericDialog(common ? "MEMTrack" : "MEMTrack: more options");
         if (!complaint.isEmpty()) {
             dialog.addMessage(Commands.wrapped(complaint), null, Color.RED);
@@ -103,6 +121,8 @@ final class TrackDialog {
         List<TrackOption> shown = new ArrayList<>();
         if (!common) {
             dialog.addMessage("An empty field leaves the choice to the model or the medium.");
+        } else if (values.get(TrackOption.PIXEL_SIZE).isEmpty()) {
+            dialog.addMessage("The film does not say its pixel size: give it, or the length of a cell.");
         }
         for (TrackOption option : TrackOption.values()) {
             if (option.common() == common) {
@@ -111,8 +131,9 @@ final class TrackDialog {
             }
         }
         if (common) {
-            dialog.addCheckbox("More options...", false);
+            dialog.addCheckbox("More options...", more);
         }
+        dialog.addHelp(help(shown));
         dialog.showDialog();
         if (dialog.wasCanceled()) {
             return Optional.empty();
@@ -120,7 +141,17 @@ final class TrackDialog {
         return Optional.of(read(dialog, shown, values) && common);
     }
 
+    private static String help(List<TrackOption> shown) {
+        StringBuilder page = new StringBuilder("<html><table width=600>");
+        shown.forEach(option -> page.append("<tr><td valign=top width=180><b>%s</b></td><td>%s</td></tr>"
+                .formatted(option.label(), option.help())));
+        return page.append("</table></html>").toString();
+    }
+
     private static void add(GenericDialog dialog, TrackOption option, String value) {
+        if (BESIDE.contains(option)) {
+            dialog.addToSameRow();
+        }
         switch (option.kind()) {
             case FOLDER -> dialog.addDirectoryField(option.label(), value, 28);
             case TEXT, NUMBER, INTEGER ->
