@@ -59,9 +59,12 @@ final class Commands {
      * Ends the macro that called, with the result "[aborted]"; a command of the menu just ends.
      *
      * <p>IJ.error would show a second dialog, about the line of the macro, and without a screen Macro.abort alone lets the
-     * macro go on.
+     * macro go on. A process that has only this macro to run ends with 1.
      */
     private static void stopMacro(String sentence) {
+        if (BatchProcess.runsThisMacroOnly()) {
+            System.exit(1);
+        }
         Interpreter macro = Interpreter.getInstance();
         if (macro != null) {
             macro.setIgnoreErrors(true);

@@ -91,6 +91,34 @@ class ProcessesTest {
     }
 
     @Test
+    void aBatchWhoseCommandFailsEndsWithOne() throws Exception {
+        assertThat(batch("failing.ijm", "open(\"%s\"); run(\"MEMTrack Track\", \"presett=water\");".formatted(film)))
+                .startsWith("1: MEMTrack: \"presett\" is no option of MEMTrack Track");
+        assertThat(batch(
+                        "filmless.ijm",
+                        "open(\"none.tif\"); run(\"MEMTrack Track\", \"output=[%s]\");".formatted(folder)))
+                .startsWith("1: ")
+                .contains("No film is open");
+    }
+
+    @Test
+    void aBatchThatSeesToItsFailuresItselfGoesOn() throws Exception {
+        Path inner = Files.writeString(folder.resolve("inner.ijm"), "run(\"MEMTrack Track\", \"presett=water\");");
+        assertThat(batch("outer.ijm", "print(\"The film gave \" + runMacro(\"%s\"));".formatted(inner)))
+                .startsWith("0: ")
+                .contains("The film gave [aborted]");
+    }
+
+    /** Runs the macro as the command line "-batch" does; gives the exit code and all that was printed. */
+    private static String batch(String name, String macro) throws Exception {
+        Path log = folder.resolve(name + ".log");
+        Path file = Files.writeString(folder.resolve(name), macro);
+        Process process = launch(log, Map.of(), BatchImageJ.class, "-batch", file.toString());
+        assertThat(process.waitFor(100, TimeUnit.SECONDS)).isTrue();
+        return process.exitValue() + ": " + Files.readString(log);
+    }
+
+    @Test
     void thePluginInstallsItsEnvironmentAndUsesIt() throws Exception {
         Path home = folder.resolve("my home [1] ü 细菌");
         Path log = folder.resolve("install.log");
