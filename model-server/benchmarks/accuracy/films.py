@@ -49,11 +49,10 @@ class Made:
     options: str = ""
 
     @property
-    def least_lengths(self) -> tuple[int, int, int]:
-        """Frames a track must span by the preset, 60 in collagen and 30 in water, at most half the film; half of that,
-        and a quarter."""
+    def least_lengths(self) -> tuple[int, int]:
+        """Frames a track must span by the preset, 60 in collagen and 30 in water, at most half the film; half that."""
         longest = min(30 if self.preset == "water" else 60, self.film.frame_count // 2)
-        return longest, longest // 2, longest // 4
+        return longest, longest // 2
 
 
 @dataclass(frozen=True, slots=True)

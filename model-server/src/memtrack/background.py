@@ -49,8 +49,7 @@ def split_drift(drift: Float64[np.ndarray, " 2"]) -> tuple[tuple[int, int], tupl
 
 
 def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndarray, "height width"]:
-    """Frame `index` with its gain corrected, cut at the film's ceiling, and moved back by the part of its drift below
-    one pixel.
+    """Frame `index`, corrected and moved back by the part of its drift below one pixel.
 
     Raises:
         FilmError: the frame holds a NaN or an infinite value.
@@ -62,10 +61,7 @@ def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndar
             f"frame {index} holds values that are not finite (NaN or infinity): replace them, for example with "
             "Process > Math > NaN Background, and run again"
         )
-    if motion.gain[index] != 1:
-        values *= np.float32(motion.gain[index])
-        np.minimum(values, np.float32(motion.ceiling), out=values)
-    return read_shifted(values, *split_drift(motion.drift[index])[1])
+    return read_shifted(motion.corrected(values, index), *split_drift(motion.drift[index])[1])
 
 
 def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, frames: range | None = None) -> Background:

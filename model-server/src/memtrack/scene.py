@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -19,6 +19,7 @@ import numpy as np
 from memtrack.background import Background, Progress, split_drift, temporal_background
 from memtrack.channels import Channel, Image, shading_of, signed
 from memtrack.film import Film
+from memtrack.fixed_pattern import fixed_pattern
 from memtrack.stabilisation import FilmMotion
 
 WINDOW_FRAMES = 900
@@ -154,4 +155,9 @@ class Scene:
     def _made(self, number: int, report: Progress) -> Still:
         window = self._windows.window(number)
         background = temporal_background(self.film, self.motion, report=report, frames=window)
+        if number == 0:  # told once, so that all backgrounds are of the same frames
+            pattern = fixed_pattern(self.film, self.motion, background, window)
+            if pattern is not None:
+                self.motion = replace(self.motion, pattern=pattern)
+                background = temporal_background(self.film, self.motion, report=report, frames=window)
         return Still.of(background, whole_numbers=self._whole_numbers)

@@ -35,11 +35,22 @@ REFERENCE_FRAMES = 25
 class FilmMotion:
     """Per frame: `drift` (x, y), how far the scene stands from its place in frame 0, in pixels; `gain`, the factor
     that brings the frame to the film's usual brightness. `ceiling`: the highest grey level, after that correction, that
-    all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken."""
+    all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken.
+    `pattern`: grey levels that the camera adds to every frame, None for none."""
 
     drift: Float64[np.ndarray, "frame 2"]
     gain: Float64[np.ndarray, " frame"]
     ceiling: float = math.inf
+    pattern: Image | None = None
+
+    def corrected(self, values: Image, index: int) -> Image:
+        """Frame `index` as an even lamp and a clean camera would have taken it; works in place."""
+        if self.gain[index] != 1:
+            values *= np.float32(self.gain[index])
+            np.minimum(values, np.float32(self.ceiling), out=values)
+        if self.pattern is not None:
+            values -= self.pattern
+        return values
 
 
 def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMotion:
