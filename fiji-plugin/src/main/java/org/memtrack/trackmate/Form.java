@@ -15,7 +15,7 @@ import javax.swing.SpinnerNumberModel;
 /** Lays out rows of a label and a widget, as narrow as TrackMate's wizard. */
 final class Form {
     private static final int TOOLTIP_WIDTH = 300;
-    private static final int WIZARD_WIDTH = 240;
+    private static final int WIZARD_WIDTH = 225;
     private static final float TEXT_SIZE = 11;
 
     private final JPanel panel;

@@ -5,10 +5,12 @@ import ij.ImagePlus;
 import ij.Prefs;
 import ij.gui.GenericDialog;
 import ij.gui.YesNoCancelDialog;
+import ij.io.FileInfo;
 import java.awt.Checkbox;
 import java.awt.Choice;
 import java.awt.Color;
 import java.awt.TextField;
+import java.io.File;
 import java.math.BigDecimal;
 import java.math.MathContext;
 import java.util.ArrayList;
@@ -63,6 +65,9 @@ final class TrackDialog {
         }
         values.put(TrackOption.PIXEL_SIZE, text(ImageFilm.pixelSizeMicrometres(image)));
         values.put(TrackOption.FRAME_INTERVAL, text(ImageFilm.frameIntervalSeconds(image)));
+        if (values.get(TrackOption.OUTPUT).isEmpty()) {
+            values.put(TrackOption.OUTPUT, besideTheFilm(image));
+        }
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
@@ -89,6 +94,13 @@ final class TrackDialog {
                 complaint = e.getMessage();
             }
         }
+    }
+
+    /** A folder to begin with; empty for a film that lies in none. */
+    private static String besideTheFilm(ImagePlus image) {
+        FileInfo info = image.getOriginalFileInfo();
+        File folder = new File(info == null || info.directory == null ? "" : info.directory);
+        return folder.isDirectory() ? new File(folder, "memtrack").getPath() : "";
     }
 
     private static boolean askForAxis(ImagePlus image, Map<TrackOption, String> values) {
