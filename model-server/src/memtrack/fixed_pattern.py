@@ -17,11 +17,11 @@ from memtrack.stabilisation import FilmMotion
 
 Image = Float32[np.ndarray, "h w"]
 
-LEAST_DRIFT_PX = 2.0
-"""A scene that drifts less lies behind the same pattern all the time, and has it in its background."""
+LEAST_DRIFT_PX = 12.0
+"""A scene must drift by more than a bacterium is long, or one that rests in it covers the same pixel nearly always."""
 SAMPLES = 32
 SIGNIFICANT = 8.0
-"""Standard errors above which a pixel belongs to the pattern; one that is covered in half of the frames has 5.7."""
+"""Standard errors above which a pixel belongs to the pattern; one that is covered in two of three frames has that."""
 STRONG = 2.0
 """The film's noise times this must be exceeded somewhere, or the pattern is not worth the work."""
 
@@ -30,7 +30,7 @@ def fixed_pattern(film: Film, motion: FilmMotion, background: Background, frames
     """Grey levels that the camera adds to every frame, 0 where none are sure; None where nothing strong is found.
 
     The mean, over some of the frames, of what is left of a frame without the scene. Where the scene drifts by less than
-    the size of a speck, some of the speck is in the background, and is not found.
+    the size of a speck, some of the speck is in the background.
 
     Args:
         film, motion: frames as the camera took them, and how the scene stands in them.
@@ -38,7 +38,7 @@ def fixed_pattern(film: Film, motion: FilmMotion, background: Background, frames
         frames: consecutive ones of the film.
     """
     drift = motion.drift[frames.start : frames.stop]
-    if np.ptp(drift, axis=0).max() < LEAST_DRIFT_PX:
+    if np.hypot(*np.ptp(drift, axis=0)) < LEAST_DRIFT_PX:
         return None
     chosen = np.unique(np.linspace(frames.start, frames.stop - 1, SAMPLES).astype(int))
     total, squares = np.zeros((2, film.height, film.width), np.float32)
