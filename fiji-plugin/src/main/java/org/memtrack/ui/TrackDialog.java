@@ -5,12 +5,10 @@ import ij.ImagePlus;
 import ij.Prefs;
 import ij.gui.GenericDialog;
 import ij.gui.YesNoCancelDialog;
-import ij.io.FileInfo;
 import java.awt.Checkbox;
 import java.awt.Choice;
 import java.awt.Color;
 import java.awt.TextField;
-import java.io.File;
 import java.math.BigDecimal;
 import java.math.MathContext;
 import java.util.ArrayList;
@@ -55,19 +53,9 @@ final class TrackDialog {
 
     /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
     static Optional<TrackRequest> ask(ImagePlus image) {
-        Map<TrackOption, String> values = new EnumMap<>(TrackOption.class);
-        for (TrackOption option : TrackOption.values()) {
-            values.put(
-                    option,
-                    OF_THE_FILM.contains(option)
-                            ? option.defaultValue()
-                            : Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
-        }
+        Map<TrackOption, String> values = remembered(image);
         values.put(TrackOption.PIXEL_SIZE, text(ImageFilm.pixelSizeMicrometres(image)));
         values.put(TrackOption.FRAME_INTERVAL, text(ImageFilm.frameIntervalSeconds(image)));
-        if (values.get(TrackOption.OUTPUT).isEmpty()) {
-            values.put(TrackOption.OUTPUT, besideTheFilm(image));
-        }
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
@@ -84,11 +72,7 @@ final class TrackDialog {
             }
             try {
                 TrackRequest request = TrackRequest.of(keyed(values));
-                values.forEach((option, value) -> {
-                    if (!OF_THE_FILM.contains(option)) {
-                        Prefs.set(PREFERENCE + option.key(), value);
-                    }
-                });
+                remember(image, values);
                 return Optional.of(request);
             } catch (DetectorException e) {
                 complaint = e.getMessage();
@@ -96,11 +80,28 @@ final class TrackDialog {
         }
     }
 
-    /** A folder to begin with; empty for a film that lies in none. */
-    private static String besideTheFilm(ImagePlus image) {
-        FileInfo info = image.getOriginalFileInfo();
-        File folder = new File(info == null || info.directory == null ? "" : info.directory);
-        return folder.isDirectory() ? new File(folder, "memtrack").getPath() : "";
+    /** The values that the dialog begins with; the film's own are still missing. */
+    static Map<TrackOption, String> remembered(ImagePlus image) {
+        Map<TrackOption, String> values = new EnumMap<>(TrackOption.class);
+        for (TrackOption option : TrackOption.values()) {
+            values.put(
+                    option,
+                    OF_THE_FILM.contains(option)
+                            ? option.defaultValue()
+                            : Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
+        }
+        values.compute(TrackOption.OUTPUT, (option, own) -> OfferedFolder.of(image, own));
+        return values;
+    }
+
+    /** Keeps accepted values for the next film. */
+    static void remember(ImagePlus image, Map<TrackOption, String> values) {
+        values.forEach((option, value) -> {
+            if (!OF_THE_FILM.contains(option)) {
+                boolean folder = option == TrackOption.OUTPUT;
+                Prefs.set(PREFERENCE + option.key(), folder ? OfferedFolder.own(image, value) : value);
+            }
+        });
     }
 
     private static boolean askForAxis(ImagePlus image, Map<TrackOption, String> values) {
