@@ -22,6 +22,7 @@ from memtrack.errors import SettingsError
 from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
 from memtrack.scene import Scene
 from memtrack.stabilisation import overlap
+from memtrack.wobble import take_out_wobble
 
 MEAN_GAIN = 2.0
 """How much larger than a single deviation the mean of eight is drawn, of which the noise is 0.35 times as large."""
@@ -31,11 +32,12 @@ MEAN_GAIN = 2.0
 class FeatureSpec:
     """Name, version and ordered channels of the features a model was trained on.
 
-    Channels: `grey` (frame less its shading, in units of the scene's texture), `deviation` (frame less temporal median,
-    signed, in units of the film's noise), `deviation+2`, `deviation-5` ... (the same of a neighbouring frame, brought
-    to this frame's place), `spread` (the pixel's temporal spread, in units of the noise), `abs_deviation`, `flow`
-    (Lucas-Kanade magnitude), `farneback` (the authors' flow, stretched per frame as they do), `frame` (grey levels),
-    `median` (the median frame itself, as the authors' shipped path has it).
+    Channels: `grey` (frame less its shading, in units of the scene's texture), `deviation` (frame less temporal median
+    and less what a wobble of the medium explains, signed, in units of the film's noise), `deviation+2`, `deviation-5`
+    ... (the same of a neighbouring frame, brought to this frame's place), `deviation-8:-1` (the mean of several),
+    `spread` (the pixel's temporal spread, in units of the noise), `abs_deviation`, `flow` (Lucas-Kanade magnitude),
+    `farneback` (the authors' flow, stretched per frame as they do), `frame` (grey levels), `median` (the median frame
+    itself, as the authors' shipped path has it).
     """
 
     name: str
@@ -90,6 +92,7 @@ class FilmFeatures:
         values *= np.float32(1 / self.scene.noise(index))
         # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
         values -= shading_of(np.clip(values, -3, 3))
+        take_out_wobble(values, self.scene.slopes(index))
         return values
 
     def _grey_and_deviation(self, index: int) -> tuple[Channel, Channel]:

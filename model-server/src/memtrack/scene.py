@@ -21,6 +21,7 @@ from memtrack.channels import Channel, Image, shading_of, signed
 from memtrack.film import Film
 from memtrack.fixed_pattern import fixed_pattern
 from memtrack.stabilisation import FilmMotion
+from memtrack.wobble import Slopes
 
 WINDOW_FRAMES = 900
 WINDOW_SECONDS = 15.0
@@ -66,11 +67,12 @@ class Windows:
 @dataclass(frozen=True, slots=True)
 class Still:
     """A background with what the features need of it: its shading, mean grey `level` and `texture`, its spread as a
-    channel, and the `noise` a deviation is counted in; in grey levels."""
+    channel, its slopes, and the `noise` a deviation is counted in; in grey levels."""
 
     background: Background
     shading: Image
     spread: Channel
+    slopes: Slopes
     level: float
     noise: float
     texture: float
@@ -85,7 +87,8 @@ class Still:
         rounding = 0.29 if whole_numbers else 1e-4 * float(np.abs(median).mean()) + 1e-9
         noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
         spread = signed(background.spread / np.float32(noise) - 1)
-        return cls(background, shading, spread, float(median.mean()), noise, float(np.hypot(texture, noise)))
+        slopes = Slopes.of(median, noise)
+        return cls(background, shading, spread, slopes, float(median.mean()), noise, float(np.hypot(texture, noise)))
 
 
 class Scene:
@@ -120,6 +123,11 @@ class Scene:
     def spread(self, index: int) -> Channel:
         """Temporal spread less the noise, in units of it, as a signed channel."""
         return self._faded(index, lambda still: still.spread)
+
+    def slopes(self, index: int) -> Slopes:
+        """Slopes of the median; between two windows' backgrounds, of the nearer one."""
+        still = self._still(max(self._windows.near(index), key=lambda near: near[1])[0])
+        return still.slopes.seen(*still.background.window(self.place(index), self.film.height, self.film.width))
 
     def noise(self, index: int) -> float:
         """What a deviation must exceed, in grey levels."""

@@ -158,7 +158,7 @@ def _key(films: SimulatedSet, spec: FeatureSpec) -> str:
 
 _SHAPING = {
     *("film.py", "recipe.py", "families.py", "scenes.py", "swimming.py", "optics.py", "bacteria.py", "truth.py"),
-    *("stabilisation.py", "background.py", "fixed_pattern.py", "scene.py"),
+    *("stabilisation.py", "background.py", "fixed_pattern.py", "wobble.py", "scene.py"),
     *("channels.py", "motion.py", "flow.py", "resampling.py"),
 }
 """Source files that change what a sample holds."""
