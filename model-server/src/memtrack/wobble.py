@@ -17,8 +17,8 @@ from memtrack.channels import Image
 
 REACH_PX = 16.0
 """Width (sigma) of the Gaussian window whose pixels share a displacement: many times a bacterium's area."""
-COARSE = 4
-"""Windows are averaged at this fraction of the size."""
+COARSE = 8
+"""Windows are averaged at this fraction of the size, of products made at half of it: grain is coarser than that."""
 STEEPEST = 2.0
 """Slopes count up to this many times their typical size, or one bacterium in the median outweighs its window."""
 CLIPPED = 4.0
@@ -55,8 +55,9 @@ class Slopes:
         steepest = np.float32(STEEPEST**2 / 0.69 * np.median(squared) + 1e-6)
         weight = np.minimum(steepest / (squared + np.float32(1e-9)), 1)
         u, v = x * weight, y * weight
-        power = np.stack([_windowed(product) for product in (u * x, u * y, v * y)])
-        return cls((x, y), (u, v), power, np.stack([_windowed(product) for product in (u * u, u * v, v * v)]))
+        p, q, r, s = (_half(image) for image in (x, y, u, v))
+        power = np.stack([_windowed(product) for product in (r * p, r * q, s * q)])
+        return cls((x, y), (u, v), power, np.stack([_windowed(product) for product in (r * r, r * s, s * s)]))
 
     def seen(self, rows: slice, columns: slice) -> Slopes:
         """Of a part of the background."""
@@ -84,10 +85,10 @@ def take_out_wobble(deviation: Image, background: Slopes) -> None:
     and nothing in it belongs to the slopes it then meets. The part of a displacement that chance explains stays.
     """
     (x, y), (a, b, c) = background.slopes, background.power
-    clipped = np.clip(deviation, -CLIPPED, CLIPPED)
-    u, v = background.weighted
-    along_x, along_y = _windowed(u * clipped), _windowed(v * clipped)
-    turned = clipped[::-1, ::-1]
+    small = _half(np.clip(deviation, -CLIPPED, CLIPPED))
+    u, v = (_half(image) for image in background.weighted)
+    along_x, along_y = _windowed(u * small), _windowed(v * small)
+    turned = small[::-1, ::-1]
     by_chance = _significance(background, _windowed(u * turned), _windowed(v * turned))
     clearness = _significance(background, along_x, along_y) / max(by_chance, 1e-12)
     if clearness <= CLEAR:
@@ -109,7 +110,14 @@ def _significance(background: Slopes, along_x: Coarse, along_y: Coarse) -> float
     return float(np.median(squared / (a * c - b * b + np.float32(1e-12))))
 
 
-def _windowed(product: Image) -> Coarse:
-    h, w = product.shape
-    small = cv2.resize(product, (max(1, w // COARSE), max(1, h // COARSE)), interpolation=cv2.INTER_AREA)
-    return np.asarray(cv2.GaussianBlur(small, (0, 0), REACH_PX / COARSE))
+def _half(image: Image) -> Coarse:
+    return _smaller(image, 2)
+
+
+def _windowed(product: Coarse) -> Coarse:
+    return np.asarray(cv2.GaussianBlur(_smaller(product, COARSE // 2), (0, 0), REACH_PX / COARSE))
+
+
+def _smaller(image: np.ndarray, times: int) -> Coarse:
+    h, w = image.shape
+    return np.asarray(cv2.resize(image, (max(1, w // times), max(1, h // times)), interpolation=cv2.INTER_AREA))
