@@ -114,10 +114,25 @@ final class TrackDialog {
                 "MEMTrack",
                 Commands.wrapped("\"%s\" has %d slices in Z and a single frame. Are the slices the frames of the film?"
                         .formatted(image.getTitle(), image.getNSlices())));
-        if (question.yesPressed()) {
-            values.put(TrackOption.FRAMES, "z");
+        if (question.cancelPressed()) {
+            return false;
         }
-        return !question.cancelPressed();
+        values.put(TrackOption.FRAMES, axis(image, question.yesPressed()));
+        return true;
+    }
+
+    /**
+     * The axis of an image whose slices lie on Z, as the user answered.
+     *
+     * @throws DetectorException when the slices are no frames: there is nothing that the other questions could mend
+     */
+    static String axis(ImagePlus image, boolean slicesAreFrames) {
+        if (!slicesAreFrames) {
+            throw new DetectorException(
+                    "Then \"%s\" shows a single moment, in which nothing moves: open a film to track in."
+                            .formatted(image.getTitle()));
+        }
+        return "z";
     }
 
     /**

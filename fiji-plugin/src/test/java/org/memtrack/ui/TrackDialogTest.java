@@ -2,6 +2,7 @@
 package org.memtrack.ui;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import ij.IJ;
 import ij.ImagePlus;
@@ -15,6 +16,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.TrackOption;
 
 class TrackDialogTest {
@@ -89,6 +91,15 @@ class TrackDialogTest {
         assertThat(TrackDialog.remembered(monday))
                 .containsEntry(TrackOption.PRESET, "water")
                 .containsEntry(TrackOption.CELL_LENGTH, "");
+    }
+
+    @Test
+    void slicesThatAreNoFramesAreNoFilm() {
+        ImagePlus stack = IJ.createImage("stack", "8-bit", 8, 8, 9);
+        assertThat(TrackDialog.axis(stack, true)).isEqualTo("z");
+        assertThatThrownBy(() -> TrackDialog.axis(stack, false))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("\"stack\" shows a single moment");
     }
 
     /** ImageJ's field for a folder ends every path with a separator. */
