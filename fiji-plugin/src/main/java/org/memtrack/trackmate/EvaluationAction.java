@@ -54,8 +54,12 @@ final class EvaluationAction extends ModelAction {
 
     @Override
     void act(ModelTracks tracks) throws IOException {
-        OpenDialog dialog = new OpenDialog("Ground truth (.mdf, .xml, .csv)");
-        String file = dialog.getPath();
+        String beside = tracks.info()
+                .file()
+                .map(Path::getParent)
+                .map(Path::toString)
+                .orElseGet(OpenDialog::getDefaultDirectory);
+        String file = new OpenDialog("Ground truth (.mdf, .xml, .csv)", beside, "").getPath();
         if (file == null) {
             throw new CancellationException();
         }
@@ -73,7 +77,7 @@ final class EvaluationAction extends ModelAction {
      * Compares tracks with a truth, in Python.
      *
      * @param out folder for evaluation.html and evaluation.json; made if missing
-     * @return what it found, line by line
+     * @return what it found, in sentences
      */
     static List<String> evaluate(ModelTracks tracks, Path truth, Path out) throws IOException {
         Path folder = Files.createTempDirectory("memtrack-evaluation");
@@ -94,7 +98,8 @@ final class EvaluationAction extends ModelAction {
             tracks.info()
                     .frameIntervalSeconds()
                     .ifPresent(interval -> arguments.addAll(List.of("--frame-interval-s", Double.toString(interval))));
-            return PythonCommand.run(arguments, Progress.NONE);
+            PythonCommand.run(arguments, Progress.NONE);
+            return EvaluationSummary.of(out.resolve("evaluation.json"));
         } finally {
             Files.deleteIfExists(table);
             Files.deleteIfExists(folder);

@@ -96,7 +96,10 @@ class ActionsTest {
         Path truth = folder.resolve("truth with space ü.csv");
         TrackCsv.write(truth, tracks.tracked());
         List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"));
-        System.out.println(String.join("\n", lines));
+        assertThat(lines)
+                .contains(
+                        "Precision 1.000, recall 1.000, F1 1.000.",
+                        "The truth has 2 tracks. Of the 2 compared with it, 0 are false.");
         assertThat(folder.resolve("out/evaluation.html")).exists();
         assertThat(Files.readString(folder.resolve("out/evaluation.json"))).contains("\"f1\": 1.0");
     }
