@@ -65,8 +65,17 @@ final class TrainingDataAction extends ModelAction {
         export(tracks, Path.of(folder)).forEach(file -> say("Wrote " + file));
     }
 
-    /** Writes film, table and recipe lines, each all or nothing; the recipe lines last. */
+    /**
+     * Writes film, table and recipe lines, each all or nothing; the recipe lines last.
+     *
+     * @param folder made if missing, since the dialog lets users type a new one
+     */
     static List<Path> export(ModelTracks tracks, Path folder) throws IOException {
+        try {
+            Files.createDirectories(folder);
+        } catch (IOException e) {
+            throw new IOException("The folder %s cannot be made: choose another one.".formatted(folder), e);
+        }
         String name =
                 tracks.info().title().replaceFirst("\\.[A-Za-z0-9]{1,4}$", "").replaceAll("[^\\p{L}\\p{N}_-]+", "_");
         Path film = folder.resolve(name + ".tif");

@@ -91,6 +91,18 @@ class ActionsTest {
     }
 
     @Test
+    void aFolderForTrainingDataIsMadeWhereItCanBe(@TempDir Path folder) throws Exception {
+        Path made = folder.resolve("Jörg").resolve("new");
+        assertThat(TrainingDataAction.export(ModelTracks.of(tracked()), made)).hasSize(3);
+        assertThat(made.resolve("two_swimmers.toml")).exists();
+
+        Path file = Files.createFile(folder.resolve("file"));
+        assertThatThrownBy(() -> TrainingDataAction.export(ModelTracks.of(tracked()), file))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("cannot be made: choose another one");
+    }
+
+    @Test
     void tracksComparedWithThemselvesAreRight(@TempDir Path folder) throws Exception {
         ModelTracks tracks = ModelTracks.of(tracked());
         Path truth = folder.resolve("truth with space ü.csv");
