@@ -82,6 +82,7 @@ final class DetectorPanel extends ConfigurationPanel {
                 nmsIou,
                 "Of two boxes whose intersection over union exceeds this, the weaker is dropped, 0 to 1. 0: the model's"
                         + " own, 0.7 in the paper.");
+        form.sentence("0 leaves a value to the film or to the model.");
         stabilise.setToolTipText(Form.wrapped(
                 "Measure and undo the drift of the stage before the background is taken; spots are reported in the"
                         + " film as you see it.",

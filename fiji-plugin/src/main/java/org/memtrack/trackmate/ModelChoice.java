@@ -65,11 +65,7 @@ final class ModelChoice {
         Item selected = selected();
         List<Item> items = new ArrayList<>();
         for (ModelCard card : cards) {
-            items.add(new Item(
-                    card.name(),
-                    card.version(),
-                    "%s Features %s; card SHA-256 %.12s…"
-                            .formatted(card.description(), card.featureSpec(), card.sha256())));
+            items.add(new Item(card.name(), card.version(), card.description()));
         }
         // The server's own rule: the model of this name, else its first one.
         items.stream()

@@ -10,6 +10,7 @@ import javax.swing.JSpinner;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.TrackFilter;
 
 /** The tracker's settings in TrackMate's wizard. */
@@ -66,11 +67,19 @@ final class TrackerPanel extends ConfigurationPanel {
                 "Mean quality of a track's frames, an interpolated one counting as 0; asked of spots of the MEMTrack"
                         + " detector only. 0 as in the paper.");
         if (image != null && image.getNFrames() > 1) {
-            form.sentence("This film has %d frames.".formatted(image.getNFrames()));
+            form.sentence(lengthAdvice(image.getNFrames()));
         }
         form.sentence("Spots put where none was found carry the feature “Interpolated”; colour or filter by it.");
         form.fill();
         setSettings(TrackerSettings.MAP.defaults());
+    }
+
+    /** The least length that the menu command would take by itself is half a short film. */
+    static String lengthAdvice(int frames) {
+        int half = Math.max(1, frames / 2);
+        return half >= SortSettings.DEFAULTS.filter().minimumLength()
+                ? "This film has %d frames.".formatted(frames)
+                : "This film has only %d frames: a least track length of %d or less suits it.".formatted(frames, half);
     }
 
     @Override

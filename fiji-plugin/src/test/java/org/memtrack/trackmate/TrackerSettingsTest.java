@@ -29,6 +29,13 @@ class TrackerSettingsTest {
     }
 
     @Test
+    void aShortFilmIsAdvisedTheLengthThatTheMenuTakesByItself() {
+        assertThat(TrackerPanel.lengthAdvice(120)).isEqualTo("This film has 120 frames.");
+        assertThat(TrackerPanel.lengthAdvice(119))
+                .isEqualTo("This film has only 119 frames: a least track length of 59 or less suits it.");
+    }
+
+    @Test
     void aValueOutOfRangeIsNamedInOneSentence() {
         Map<String, Object> map = TrackerSettings.MAP.defaults();
         assertThat(TrackerSettings.check(map)).isNull();
