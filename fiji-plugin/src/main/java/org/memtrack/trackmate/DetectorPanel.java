@@ -55,7 +55,8 @@ final class DetectorPanel extends ConfigurationPanel {
     private void layOut() {
         Form form = new Form(this);
         form.title(MemtrackDetectorFactory.NAME, "Finds bacteria and microrobots by how they move.");
-        form.row("Server", server, "The local Python that the network runs in; MEMTrack starts and ends it by itself.");
+        server.setToolTipText("The local Python that the network runs in; MEMTrack starts and ends it by itself.");
+        form.note(server);
         form.row("", again, "Look for the server again, for example after Python was installed.");
         form.row("Model", model.box(), "The trained network to detect with.");
         form.note(card);
@@ -103,8 +104,9 @@ final class DetectorPanel extends ConfigurationPanel {
         question.execute();
     }
 
-    private void showState(String state) {
-        server.setText(Form.wrapped(LabelLogger.escaped(state), TEXT_WIDTH / 2));
+    /** In the width of the form, since what is wrong and what to do take a few lines. */
+    void showState(String state) {
+        server.setText(Form.wrapped("Server: " + LabelLogger.escaped(state), TEXT_WIDTH));
         again.setVisible(question != null && question.isDone() && !state.startsWith("Ready"));
     }
 
@@ -115,6 +117,7 @@ final class DetectorPanel extends ConfigurationPanel {
 
     private void showCard() {
         card.setText(Form.wrapped(LabelLogger.escaped(model.card()), TEXT_WIDTH));
+        card.setVisible(!model.card().isEmpty());
     }
 
     private void enableThresholds() {

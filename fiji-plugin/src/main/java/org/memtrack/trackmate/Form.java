@@ -91,7 +91,7 @@ final class Form {
         constraints.weightx = weight;
         constraints.fill = GridBagConstraints.HORIZONTAL;
         constraints.anchor = GridBagConstraints.NORTHWEST;
-        constraints.insets = new Insets(3, 3, 3, 3);
+        constraints.insets = new Insets(2, 3, 2, 3);
         return constraints;
     }
 }

@@ -22,7 +22,7 @@ final class ModelChoice {
         }
     }
 
-    private static final Item DEFAULT = new Item("", "", "The model that the server takes when none is named.");
+    private static final Item DEFAULT = new Item("", "", "");
 
     private final JComboBox<Item> box = new JComboBox<>(new Item[] {DEFAULT});
 
@@ -42,7 +42,7 @@ final class ModelChoice {
         return selected().version;
     }
 
-    /** What the selected model is, for the user. */
+    /** What the selected model is, for the user; empty before the server's models are known. */
     String card() {
         return selected().description;
     }
