@@ -50,7 +50,7 @@ public final class CheckCommand implements PlugIn {
             show(report.toString());
             IJ.showStatus("MEMTrack: the server works");
         } catch (DetectorException e) {
-            report.append("Server: ").append(e.getMessage()).append('\n');
+            report.append(problem(e.getMessage()));
             show(report.toString());
             throw e;
         }
@@ -108,6 +108,11 @@ public final class CheckCommand implements PlugIn {
                     "The server is of another version than the plug-in: run \"MEMTrack Install Python Environment\".\n");
         }
         return report.toString();
+    }
+
+    /** In lines that the window shows without scrolling. */
+    static String problem(String sentence) {
+        return Commands.wrapped("Server: " + sentence) + "\n";
     }
 
     private static String libraries(ServerInfo info) {
