@@ -8,6 +8,7 @@ import ij.measure.ResultsTable;
 import java.util.Arrays;
 import java.util.List;
 import java.util.OptionalDouble;
+import java.util.stream.Collectors;
 import javax.swing.ImageIcon;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.motility.MotilityClass;
@@ -115,18 +116,14 @@ final class MotilityAction extends ModelAction {
                     .ifPresent(motilityClass -> shares[motilityClass.ordinal()] +=
                             1.0 / tracks.tracked().motility().size());
         }
-        Plot plot = new Plot("Motility in " + tracks.info().title(), "class of motility", "share of the tracks");
+        // ImageJ takes what stands in braces for names, one below each whole number.
+        String names = "{%s}"
+                .formatted(Arrays.stream(classes).map(MotilityAction::nameOf).collect(Collectors.joining(",")));
+        Plot plot = new Plot("Motility in " + tracks.info().title(), names, "share of the tracks");
+        plot.setFormatFlags(Plot.getDefaultFlags() & ~(Plot.X_TICKS | Plot.X_MINOR_TICKS | Plot.X_GRID));
         plot.setColor("black", "lightgray");
-        plot.add("bar", new double[] {0, 1, 2, 3}, shares);
+        plot.add("separated bar", new double[] {0, 1, 2, 3}, shares);
         plot.setLimits(-0.5, classes.length - 0.5, 0, 1);
-        plot.setXYLabels(
-                "class of motility: "
-                        + String.join(
-                                ", ",
-                                Arrays.stream(classes)
-                                        .map(motilityClass -> motilityClass.ordinal() + " " + nameOf(motilityClass))
-                                        .toList()),
-                "share of the tracks");
         return plot;
     }
 

@@ -11,6 +11,7 @@ import fiji.plugin.trackmate.TrackMate;
 import fiji.plugin.trackmate.providers.ActionProvider;
 import ij.IJ;
 import ij.ImagePlus;
+import ij.gui.Plot;
 import ij.measure.ResultsTable;
 import java.io.IOException;
 import java.nio.file.Files;
@@ -62,7 +63,9 @@ class ActionsTest {
         }
         assertThat(table.getValue("Interpolated", 0) + table.getValue("Interpolated", 1)).isEqualTo(3);
         assertThat(MotilityAction.speeds(ModelTracks.of(tracked())).getSize().width).isPositive();
-        assertThat(MotilityAction.classes(ModelTracks.of(tracked())).getSize().width).isPositive();
+        Plot classes = MotilityAction.classes(ModelTracks.of(tracked()));
+        assertThat(classes.getLabel('x')).isEqualTo("{none,low,medium,high}");
+        assertThat(classes.getPlotObjectStyle(0)).contains("Separated Bars");
     }
 
     @Test
