@@ -22,7 +22,7 @@ public enum TrackOption {
             "criterion",
             "Thresholds for",
             "maximum F1",
-            "which of the model's stored score thresholds to use: for few false cells, or for few false and few missed ones",
+            "how sure of a cell to be: maximum precision for few false ones, maximum F1 for few false and few missed ones",
             "maximum precision",
             "maximum F1"),
     MODEL("model", "Model", Kind.TEXT, "default", "name of the model, or default"),
