@@ -87,6 +87,8 @@ final class TrackMateXmlWriter {
             TrackMateXmlSettings.write(xml, film, film.file().get());
         }
         xml.empty("GUIState", "state", "ConfigureViews");
+        // Empty means the user's own; without it TrackMate tells of errors in the file.
+        xml.empty("DisplaySettings");
         xml.end();
         xml.finish();
     }

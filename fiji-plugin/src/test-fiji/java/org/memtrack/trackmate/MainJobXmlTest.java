@@ -62,6 +62,7 @@ class MainJobXmlTest {
 
         TmXmlReader reader = new TmXmlReader(xml.toFile());
         Model model = reader.getModel();
+        assertThat(reader.getDisplaySettings()).isNotNull();
         assertThat(reader.isReadingOk()).as(reader.getErrorMessage()).isTrue();
         assertThat(model.getTrackModel().nTracks(true)).isEqualTo(tracks.size()).isPositive();
         int points = tracks.stream().mapToInt(Track::length).sum();
