@@ -104,6 +104,8 @@ class WrittenFilesTest {
             assertThat(text).contains("feature=\"" + feature.key() + "\"").contains(feature.key() + "=\"");
         }
         assertThat(text).contains("feature=\"LINK_COST\"").contains("DETECTOR_NAME=\"MANUAL_DETECTOR\"");
+        // Without it TrackMate reports errors in the file.
+        assertThat(text).contains("<DisplaySettings/>");
     }
 
     @Test
