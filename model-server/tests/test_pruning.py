@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+from typing import Any
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
 from memtrack.boxes import square_boxes
 from memtrack.detections import Detections
-from memtrack.pruning import prune
+from memtrack.pruning import faint, prune
 
 
 def detections(*rows: tuple[float, float, float, float, int]) -> Detections:
@@ -42,6 +44,28 @@ def test_nothing_in_nothing_out() -> None:
     kept, counts = prune(Detections.empty(), thresholds=(0, 0, 0), max_size_px=35, nms_iou=0.7)
     assert len(kept) == 0
     assert counts.candidates == 0
+
+
+def test_faint_boxes_are_those_that_only_the_threshold_drops() -> None:
+    candidates = detections(
+        (50, 50, 30, 0.5, 0),
+        (51, 50, 30, 0.4, 0),  # overlaps a detection
+        (50, 150, 30, 0.1, 0),
+        (50, 150, 30, 0.2, 1),  # the same box, better
+        (51, 150, 30, 0.15, 1),  # overlaps a better one
+        (150, 50, 36, 0.2, 0),  # too large
+        (150, 150, 30, 0.2, 0),  # outside the region
+        (100, 20, 30, 0.3, 2),  # a detection: its level asks for less
+    )
+    region = np.ones((200, 200), bool)
+    region[100:, 100:] = False
+    limits: dict[str, Any] = {"thresholds": (0.45, 0.45, 0.25), "max_size_px": 35.0, "nms_iou": 0.7, "region": region}
+    kept, _ = prune(candidates, **limits)
+    found = faint(candidates, kept, **limits)
+    np.testing.assert_allclose(kept.scores, [0.5, 0.3])
+    np.testing.assert_allclose(found.scores, [0.2])
+    np.testing.assert_allclose(found.boxes[0], [35, 135, 65, 165])
+    assert len(faint(Detections.empty(), Detections.empty(), **limits)) == 0
 
 
 row = st.tuples(st.floats(0, 60), st.floats(0, 60), st.floats(10, 50), st.floats(0, 1, width=32), st.integers(0, 2))

@@ -81,7 +81,8 @@ class FrameDetections:
     """What was found in one frame.
 
     `drift_x`, `drift_y`: how far the scene stands from its place in frame 0, in pixels, as the stabilisation
-    measured it (0 when it is off); boxes are not corrected by it.
+    measured it (0 when it is off); boxes are not corrected by it. `faint`: boxes that only their score keeps from being
+    detections, see `memtrack.pruning.faint`.
     """
 
     frame: int
@@ -89,3 +90,4 @@ class FrameDetections:
     counts: FilterCounts = field(default_factory=FilterCounts)
     drift_x: float = 0.0
     drift_y: float = 0.0
+    faint: Detections = field(default_factory=Detections.empty)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from memtrack.detections import FilterCounts, FrameDetections, Level
+from memtrack.detections import Detections, FilterCounts, FrameDetections, Level
 from memtrack.headers import FilmRequest
 from memtrack.libraries import library_versions
 from memtrack.models import OPENVINO, Model, ModelCard
@@ -77,19 +77,23 @@ def progress(standing: Standing, films_ahead: int = 0) -> pb.DetectFilmResponse:
 
 def frame(found: FrameDetections) -> pb.DetectFilmResponse:
     """What was found in one frame."""
-    rows = zip(
-        found.detections.boxes.tolist(),
-        found.detections.scores.tolist(),
-        found.detections.levels.tolist(),
-        strict=True,
+    return pb.DetectFilmResponse(
+        frame=pb.FrameDetections(
+            frame=found.frame,
+            detections=_boxes(found.detections),
+            drift_x=found.drift_x,
+            drift_y=found.drift_y,
+            faint=_boxes(found.faint),
+        )
     )
-    detections = [
+
+
+def _boxes(detections: Detections) -> list[pb.Detection]:
+    rows = zip(detections.boxes.tolist(), detections.scores.tolist(), detections.levels.tolist(), strict=True)
+    return [
         pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=LEVELS[Level(level)])
         for (x0, y0, x1, y1), score, level in rows
     ]
-    return pb.DetectFilmResponse(
-        frame=pb.FrameDetections(frame=found.frame, detections=detections, drift_x=found.drift_x, drift_y=found.drift_y)
-    )
 
 
 def summary(

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from jaxtyping import Bool
@@ -22,7 +22,7 @@ from memtrack.film import Calibration, Film
 from memtrack.models import CRITERIA, Model
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
-from memtrack.pruning import prune
+from memtrack.pruning import faint, prune
 from memtrack.resampling import ScaledFilm
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
@@ -94,7 +94,12 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     _check(film, settings)
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
-    thresholds = settings.thresholds or model.card.thresholds[settings.criterion]
+    limits: dict[str, Any] = {
+        "thresholds": settings.thresholds or model.card.thresholds[settings.criterion],
+        "max_size_px": settings.max_size_px / scale,
+        "nms_iou": settings.nms_iou,
+        "region": settings.region,
+    }
     engine = model.engine(settings.engine, threads=settings.threads)
 
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=_at(report, Stage.STABILISING))
@@ -109,15 +114,10 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
         for i, on_grid in enumerate(found):
             done = i + 1
             report(Stage.DETECTING, done, count)
-            kept, counts = prune(
-                to_film(on_grid, split_drift(motion.drift[i])[1], scale),
-                thresholds=thresholds,
-                max_size_px=settings.max_size_px / scale,
-                nms_iou=settings.nms_iou,
-                region=settings.region,
-            )
+            candidates = to_film(on_grid, split_drift(motion.drift[i])[1], scale)
+            kept, counts = prune(candidates, **limits)
             drift_x, drift_y = motion.drift[i] / scale
-            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y))
+            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
 
 
 def ahead(pool: Executor, work: Callable[[T], R], items: Iterator[T], depth: int) -> Iterator[R]:

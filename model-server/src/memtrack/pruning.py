@@ -32,10 +32,8 @@ def prune(
     Returns:
         The detections kept, best first, and how many each filter dropped.
     """
-    boxes = candidates.boxes
-    fits = np.maximum(boxes[:, 2] - boxes[:, 0], boxes[:, 3] - boxes[:, 1]) <= max_size_px
-    sized = candidates.select(fits)
-    confident = sized.select(sized.scores >= np.asarray(thresholds, np.float32)[sized.levels])
+    sized = candidates.select(_fits(candidates, max_size_px))
+    confident = sized.select(_passes(sized, thresholds))
     distinct = confident.select(non_maximum_suppression(confident.boxes, confident.scores, nms_iou))
     kept = distinct if region is None else distinct.select(_inside(distinct, region))
     return kept, FilterCounts(
@@ -46,6 +44,41 @@ def prune(
         outside_region=len(distinct) - len(kept),
         kept=len(kept),
     )
+
+
+def faint(
+    candidates: Detections,
+    kept: Detections,
+    *,
+    thresholds: Sequence[float],
+    max_size_px: float,
+    nms_iou: float,
+    region: Bool[np.ndarray, "height width"] | None = None,
+) -> Detections:
+    """The boxes that only the score threshold drops: they overlap neither a `kept` one nor a better one of their own.
+
+    In one frame most are no bacteria; one that is found again and again along a track is.
+    """
+    near = candidates.select(_fits(candidates, max_size_px) & ~_passes(candidates, thresholds))
+    if region is not None:
+        near = near.select(_inside(near, region))
+    # Most are of one bacterium and were led to one place; telling these first keeps the overlaps few.
+    near = near.select(np.argsort(-near.scores, kind="stable"))
+    near = near.select(np.sort(np.unique(near.boxes, axis=0, return_index=True)[1]))
+    boxes = np.concatenate([kept.boxes, near.boxes])
+    stay = non_maximum_suppression(boxes, np.concatenate([kept.scores + 1, near.scores]), nms_iou)
+    return near.select(stay[stay >= len(kept)] - len(kept))
+
+
+def _fits(detections: Detections, max_size_px: float) -> Bool[np.ndarray, " n"]:
+    size = detections.boxes[:, 2:] - detections.boxes[:, :2]
+    fits: np.ndarray = size.max(axis=1, initial=0) <= max_size_px
+    return fits
+
+
+def _passes(detections: Detections, thresholds: Sequence[float]) -> Bool[np.ndarray, " n"]:
+    passes: np.ndarray = detections.scores >= np.asarray(thresholds, np.float32)[detections.levels]
+    return passes
 
 
 def _inside(detections: Detections, region: Bool[np.ndarray, "height width"]) -> Bool[np.ndarray, " n"]:

@@ -8,6 +8,7 @@ import json
 import os
 import shutil
 import threading
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +26,9 @@ from server.running import Answer, RunningServer, answer, chunks, eventually, he
 LOW = pb.LevelThresholds(low=0.1, medium=0.1, high=0.1)
 
 
-def rows(found: pb.FrameDetections) -> np.ndarray:
-    """Boxes, scores and levels (from 0) of one frame."""
-    return np.array([[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1] for d in found.detections]).reshape(
-        -1, 6
-    )
+def rows(found: Iterable[pb.Detection]) -> np.ndarray:
+    """Boxes, scores and levels (from 0)."""
+    return np.array([[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1] for d in found]).reshape(-1, 6)
 
 
 def check_order(found: Answer, frames: int) -> None:
@@ -50,8 +49,8 @@ def test_a_film_gets_the_detections_of_the_method_itself(server: RunningServer, 
 
     check_order(found, 12)
     for ours, theirs in zip(found.frame, expected, strict=True):
-        d = theirs.detections
-        np.testing.assert_array_equal(rows(ours), np.c_[d.boxes, d.scores, d.levels])
+        for sent, made in ((ours.detections, theirs.detections), (ours.faint, theirs.faint)):
+            np.testing.assert_array_equal(rows(sent), np.c_[made.boxes, made.scores, made.levels])
         assert (ours.drift_x, ours.drift_y) == (theirs.drift_x, theirs.drift_y)
     counts = sum((frame.counts for frame in expected), FilterCounts())
     summary = found.summary[0]
@@ -105,7 +104,7 @@ def test_extreme_films_go_through(server: RunningServer, film: np.ndarray) -> No
     found = server.detect(film)
     check_order(found, len(film))
     for frame in found.frame:
-        assert np.isfinite(rows(frame)).all()
+        assert np.isfinite(rows(frame.detections)).all()
 
 
 def test_an_all_zero_film_has_no_detections(server: RunningServer) -> None:
@@ -124,7 +123,7 @@ def test_region_and_filters_are_obeyed_and_counted(server: RunningServer) -> Non
     assert 0 < left.summary[0].kept < everywhere.summary[0].kept
     assert left.summary[0].outside_region == everywhere.summary[0].kept - left.summary[0].kept
     for frame in left.frame:
-        assert (rows(frame)[:, [0, 2]].mean(axis=1) <= 50).all()
+        assert (rows(frame.detections)[:, [0, 2]].mean(axis=1) <= 50).all()
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

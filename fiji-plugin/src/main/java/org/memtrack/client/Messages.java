@@ -61,12 +61,21 @@ final class Messages {
     }
 
     static FrameDetections frame(org.memtrack.v1.FrameDetections message) {
-        List<Detection> detections = new ArrayList<>(message.getDetectionsCount());
-        for (org.memtrack.v1.Detection detection : message.getDetectionsList()) {
+        return new FrameDetections(
+                message.getFrame(),
+                detections(message.getDetectionsList()),
+                message.getDriftX(),
+                message.getDriftY(),
+                detections(message.getFaintList()));
+    }
+
+    private static List<Detection> detections(List<org.memtrack.v1.Detection> messages) {
+        List<Detection> detections = new ArrayList<>(messages.size());
+        for (org.memtrack.v1.Detection detection : messages) {
             Box box = new Box(detection.getXMin(), detection.getYMin(), detection.getXMax(), detection.getYMax());
             detections.add(new Detection(box, detection.getScore(), level(detection.getLevel())));
         }
-        return new FrameDetections(message.getFrame(), detections, message.getDriftX(), message.getDriftY());
+        return detections;
     }
 
     static ModelInUse model(Accepted message) {

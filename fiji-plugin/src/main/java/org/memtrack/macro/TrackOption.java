@@ -88,6 +88,12 @@ public enum TrackOption {
             Kind.NUMBER,
             String.valueOf(SortSettings.DEFAULTS.filter().minimumScore()),
             "least mean score of a track's frames, 0 to 1, an interpolated frame counting as 0; 0 as in the paper"),
+    SECOND_LOOK(
+            "second_look",
+            "Look again for faint cells",
+            Kind.SWITCH,
+            "true",
+            "track what the thresholds drop too, and keep cells that travel and are found again and again; off in the paper, and where thresholds are given"),
     MAX_AGE(
             "max_age",
             "Maximum age (frames)",

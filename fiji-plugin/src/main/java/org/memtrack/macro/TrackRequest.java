@@ -48,7 +48,7 @@ public record TrackRequest(
             return new TrackRequest(
                     Path.of(values.text(OUTPUT)).toAbsolutePath(),
                     film(values),
-                    new TrackingSettings(detection(values), tracking(values), server(values)),
+                    new TrackingSettings(detection(values), tracking(values), server(values), secondLook(values)),
                     values.flag(OVERLAY),
                     values.asMap());
         } catch (InvalidPathException e) {
@@ -74,7 +74,12 @@ public record TrackRequest(
                 ? filter.minimumLengthIfSure()
                 : TrackFilter.ofSwimmers(longest).minimumLengthIfSure();
         TrackFilter shorter = new TrackFilter(longest, ifSure, filter.minimumScore());
-        return new TrackingSettings(settings.detection(), tracking.with(shorter), settings.server());
+        return settings.with(tracking.with(shorter));
+    }
+
+    /** Who gives thresholds wants nothing below them. */
+    private static boolean secondLook(OptionValues values) {
+        return values.flag(SECOND_LOOK) && thresholds(values) == null;
     }
 
     private static FilmOptions film(OptionValues values) {

@@ -38,7 +38,7 @@ public final class TrackingRun {
             DetectionResult detection = connection.detect(film, settings.detection(), progress.between(0, DETECTED));
             FilmInfo info = wholeFilm(film);
             Progress rest = progress.between(DETECTED, 1);
-            List<FrameDetections> frames = asNumberedInTheImage(detection.frames(), film.firstFrame());
+            List<FrameDetections> frames = asTracked(detection.frames(), film.firstFrame(), settings.secondLook());
             List<Track> tracks = new SortTracker(settings.tracking(), new Field(info.width(), info.height()))
                     .track(
                             frames,
@@ -62,10 +62,15 @@ public final class TrackingRun {
                                 settings.tracking().filter().minimumScore());
     }
 
-    private static List<FrameDetections> asNumberedInTheImage(List<FrameDetections> frames, int firstFrame) {
+    /** Numbered as in the image, and without faint boxes where no second look is wanted. */
+    private static List<FrameDetections> asTracked(List<FrameDetections> frames, int firstFrame, boolean faint) {
         return frames.stream()
                 .map(frame -> new FrameDetections(
-                        frame.frame() + firstFrame, frame.detections(), frame.driftX(), frame.driftY()))
+                        frame.frame() + firstFrame,
+                        frame.detections(),
+                        frame.driftX(),
+                        frame.driftY(),
+                        faint ? frame.faint() : List.of()))
                 .toList();
     }
 

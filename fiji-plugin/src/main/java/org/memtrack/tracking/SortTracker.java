@@ -13,7 +13,8 @@ import org.memtrack.detection.StageDrift;
 
 /**
  * Joins the detections of a film into tracks: SORT, interpolation and the track length filter (paper sections
- * "Interpolated Tracker" and "Track Length Filter").
+ * "Interpolated Tracker" and "Track Length Filter"). Where the frames hold faint boxes, a second look finds the cells that
+ * are among them; the paper has none, nor does {@link Interpolation#AUTHORS}.
  */
 public final class SortTracker {
     private final SortSettings settings;
@@ -51,8 +52,39 @@ public final class SortTracker {
      * @throws IllegalArgumentException when the frames are not in ascending order
      */
     public List<Track> track(List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
-        Sort sort = new Sort(settings, typicalEdge(frames));
         SceneView scene = new SceneView(new StageDrift(frames));
+        boolean again = settings.interpolation() == Interpolation.FILL_GAPS
+                && frames.stream().anyMatch(frame -> !frame.faint().isEmpty());
+        double share = again ? 0.5 : 1;
+        List<List<TrackPoint>> kept = new ArrayList<>();
+        for (Tracklet tracklet : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
+            List<TrackPoint> points = scene.inFilm(pointsOf(tracklet));
+            if (!points.isEmpty() && settings.filter().keeps(points, field)) {
+                kept.add(points);
+            }
+        }
+        if (again) {
+            List<FrameDetections> rest = SecondLook.unaccounted(frames, kept);
+            for (Tracklet tracklet : joined(rest, scene, done -> progress.accept(share + share * done), cancelled)) {
+                List<TrackPoint> found = tracklet.points();
+                if (SecondLook.isCell(found, settings.filter().minimumScore())
+                        && settings.filter().isLong(found)) {
+                    kept.add(scene.inFilm(pointsOf(tracklet)));
+                }
+            }
+        }
+        kept.sort(Comparator.comparingInt(points -> points.get(0).frame()));
+        List<Track> tracks = new ArrayList<>();
+        for (List<TrackPoint> points : kept) {
+            tracks.add(new Track(tracks.size(), points));
+        }
+        return tracks;
+    }
+
+    /** Tracklets with as many detections as they need. */
+    private List<Tracklet> joined(
+            List<FrameDetections> frames, SceneView scene, DoubleConsumer progress, BooleanSupplier cancelled) {
+        Sort sort = new Sort(settings, typicalEdge(frames));
         int expected = frames.isEmpty() ? 0 : frames.get(0).frame();
         for (int i = 0; i < frames.size(); i++) {
             FrameDetections frame = frames.get(i);
@@ -67,7 +99,7 @@ public final class SortTracker {
             expected++;
             progress.accept((i + 1.0) / frames.size());
         }
-        return finish(sort.tracklets(), scene);
+        return sort.tracklets().stream().filter(this::hasHitsEnough).toList();
     }
 
     private static double typicalEdge(List<FrameDetections> frames) {
@@ -83,20 +115,6 @@ public final class SortTracker {
             throw new CancellationException("Tracking was cancelled at frame " + frame.frame());
         }
         sort.step(frame);
-    }
-
-    private List<Track> finish(List<Tracklet> tracklets, SceneView scene) {
-        List<List<TrackPoint>> kept = tracklets.stream()
-                .filter(this::hasHitsEnough)
-                .map(tracklet -> scene.inFilm(pointsOf(tracklet)))
-                .filter(points -> !points.isEmpty() && settings.filter().keeps(points, field))
-                .sorted(Comparator.comparingInt(points -> points.get(0).frame()))
-                .toList();
-        List<Track> tracks = new ArrayList<>();
-        for (List<TrackPoint> points : kept) {
-            tracks.add(new Track(tracks.size(), points));
-        }
-        return tracks;
     }
 
     private boolean hasHitsEnough(Tracklet tracklet) {

@@ -55,12 +55,21 @@ public record TrackFilter(int minimumLength, int minimumLengthIfSure, double min
     public boolean keeps(List<TrackPoint> points, @Nullable Field field) {
         TrackPoint first = points.get(0);
         TrackPoint last = points.get(points.size() - 1);
-        int length = last.frame() - first.frame() + 1;
+        int length = length(points);
         OptionalDouble score = meanScore(points, length);
         boolean atEdge = field != null && (field.isAtEdge(first.box()) || field.isAtEdge(last.box()));
         boolean sure = atEdge || score.orElse(0) >= SURE_SCORE;
         return length >= (sure ? Math.min(minimumLengthIfSure, minimumLength) : minimumLength)
                 && score.orElse(1) >= minimumScore;
+    }
+
+    /** Whether a track is as long as one must be that is not sure to be real; of at least one point. */
+    boolean isLong(List<TrackPoint> points) {
+        return length(points) >= minimumLength;
+    }
+
+    private static int length(List<TrackPoint> points) {
+        return points.get(points.size() - 1).frame() - points.get(0).frame() + 1;
     }
 
     /** A frame without a detection counts as 0; empty when the scores are no probabilities. */

@@ -56,10 +56,8 @@ public final class TrackCommand implements PlugIn {
         ImageFilm film = new ImageFilm(image, request.film());
         ResultFiles files = ResultFiles.in(request.output(), image.getTitle());
         TrackingSettings settings = request.settingsFor(film.info().frameCount());
-        settings = new TrackingSettings(
-                settings.detection().withRegion(Regions.of(image).orElse(null)),
-                settings.tracking(),
-                settings.server());
+        settings =
+                settings.with(settings.detection().withRegion(Regions.of(image).orElse(null)));
         TrackingResult result = TrackingRun.run(film, settings, progress);
         List<String> warnings = new ArrayList<>(film.warnings());
         if (!settings.tracking().equals(request.settings().tracking())) {

@@ -53,8 +53,7 @@ class MainJobXmlTest {
                 0,
                 OptionalDouble.of(PIXEL_SIZE),
                 OptionalDouble.of(INTERVAL));
-        TrackingSettings settings = new TrackingSettings(
-                TrackingSettings.DEFAULTS.detection(), SortSettings.WATER, TrackingSettings.DEFAULTS.server());
+        TrackingSettings settings = TrackingSettings.DEFAULTS.with(SortSettings.WATER);
         TrackingResult result = TrackingRun.run(new ImageFilm(image, options), settings, Progress.NONE);
         List<Track> tracks = result.tracked().tracks();
         Path xml = folder.resolve("tracks.xml");

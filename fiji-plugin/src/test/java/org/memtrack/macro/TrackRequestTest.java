@@ -37,7 +37,7 @@ class TrackRequestTest {
                 + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false overlay=false frames=z channel=2"
                 + " first_frame=3 last_frame=40 threshold_low=0.1 threshold_medium=0.2 threshold_high=0.3 max_size=33"
                 + " nms_iou=0.6 min_length_sure=20 min_score=0.25 max_age=24 min_hits=4 iou_gate=0.07 association=overlap interpolation=authors"
-                + " python=/p/python server=host:1");
+                + " second_look=false python=/p/python server=host:1");
         assertThat(request.film())
                 .isEqualTo(new FilmOptions(FrameAxis.Z, 2, 3, 40, OptionalDouble.of(0.25), OptionalDouble.of(0.0167)));
         assertThat(request.settings().detection().model()).isEqualTo("mine");
@@ -51,9 +51,20 @@ class TrackRequestTest {
         assertThat(request.settings().tracking())
                 .isEqualTo(new SortSettings(
                         Association.OVERLAP, 0.07, 24, 4, Interpolation.AUTHORS, new TrackFilter(30, 20, 0.25)));
+        assertThat(request.settings().secondLook()).isFalse();
         assertThat(request.settings().server().address()).isEqualTo("host:1");
         assertThat(request.settings().server().python()).hasFileName("python");
         assertThat(request.overlay()).isFalse();
+    }
+
+    @Test
+    void faintCellsAreLookedForUnlessTheUserGivesThresholds() {
+        assertThat(of("output=out").settings().secondLook()).isTrue();
+        assertThat(of("output=out second_look=false").settings().secondLook()).isFalse();
+        assertThat(of("output=out threshold_low=0.5 threshold_medium=0.5 threshold_high=0.5")
+                        .settings()
+                        .secondLook())
+                .isFalse();
     }
 
     @Test
