@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from memtrack.film import ArrayFilm
+from memtrack.motion import FeatureSpec, FilmFeatures
 from memtrack.scene import Scene
 from memtrack.simulation.scenes import mottled
 from memtrack.stabilisation import FilmMotion
@@ -84,6 +85,21 @@ def test_slopes_belong_to_the_part_of_the_scene_that_a_frame_shows() -> None:
         assert seen.power[0].shape == own.power[0].shape == (size[0] // COARSE, size[1] // COARSE)
         middle = np.s_[6:-6, 6:-6]
         np.testing.assert_allclose(seen.power[0][middle], own.power[0][middle], rtol=0.25)
+
+
+def test_the_features_of_a_wobbling_film_hold_little_of_its_wobble() -> None:
+    rng = np.random.default_rng(3)
+    reaches = 0.8 * np.sin(0.7 * np.arange(21))
+    frames = np.stack([bent(scene(), reach) for reach in reaches]) + rng.normal(0, NOISE, (21, *SIZE))
+    film = ArrayFilm(frames.astype(np.float32))
+    made = Scene(film, FilmMotion(np.zeros((21, 2)), np.ones(21)), report=lambda done, total: None)
+    most = int(np.abs(reaches).argmax())
+    shown = FilmFeatures(made, FeatureSpec("s", 1, ("deviation",))).frame(most)[0].astype(np.float32)
+    of_the_bend = bent(scene(), reaches[most]) - scene()
+    left = np.corrcoef(shown.ravel(), of_the_bend.ravel())[0, 1]
+    unchanged = np.corrcoef((frames[most] - made.median(most)).ravel(), of_the_bend.ravel())[0, 1]
+    assert unchanged > 0.6
+    assert abs(left) < 0.25
 
 
 def test_a_frame_of_one_grey_level_stays_finite() -> None:
