@@ -152,6 +152,13 @@ final class ScriptedServer extends DetectionServiceGrpc.DetectionServiceImplBase
                     .setScore(0.75f)
                     .setLevel(Level.LEVEL_MEDIUM));
         }
+        found.addFaint(Detection.newBuilder()
+                .setXMin(50)
+                .setYMin(60)
+                .setXMax(80)
+                .setYMax(90)
+                .setScore(0.125f)
+                .setLevel(Level.LEVEL_LOW));
         return DetectFilmResponse.newBuilder().setFrame(found).build();
     }
 
