@@ -143,6 +143,7 @@ public final class EnvironmentInstaller {
                             // By its bare name: pip would read a bracket in a path as an extra.
                             wheel.fileName() + (torch ? "[torch]" : ""))
                     .directory(parcels.toFile());
+            progress.report("Installing", 0.1, OptionalDouble.empty(), "");
             step("installing the packages", pip, progress.between(0.1, 0.9));
             progress.report("Trying the server", 0.9, OptionalDouble.empty(), "");
             tryServer(made, progress);
