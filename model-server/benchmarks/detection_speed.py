@@ -12,7 +12,7 @@ import argparse
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import cv2
 import numpy as np
@@ -21,7 +21,7 @@ from memtrack.detector import padded
 from memtrack.models import load_model
 from memtrack.motion import FilmFeatures
 from memtrack.pipeline import DetectionSettings, detect_film
-from memtrack.pruning import prune
+from memtrack.pruning import faint, prune
 from memtrack.scene import Scene
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
@@ -53,8 +53,8 @@ def main() -> None:
     engine.run(features[0])
     maps = timed("net", n, lambda: [engine.run(f) for f in features])
     found = timed("decoding", n, lambda: [decoder.decode(m, film.height, film.width) for m in maps])
-    limits = {"thresholds": model.card.thresholds["max_f1"], "max_size_px": 35.0, "nms_iou": 0.7}
-    timed("pruning", n, lambda: [prune(d, **limits) for d in found])  # type: ignore[arg-type]
+    limits: dict[str, Any] = {"thresholds": model.card.thresholds["max_f1"], "max_size_px": 35.0, "nms_iou": 0.7}
+    timed("pruning", n, lambda: [faint(d, prune(d, **limits)[0], **limits) for d in found])
     settings = DetectionSettings(threads=args.threads)
     timed("the whole", n, lambda: list(detect_film(film, model, settings, lambda stage, done, total: None)))
 
