@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from memtrack.background import Background, _order_statistics, aligned_frame, split_drift, temporal_background
-from memtrack.errors import FilmError
 from memtrack.film import ArrayFilm
 from memtrack.stabilisation import FilmMotion, measure_motion
 
@@ -90,13 +89,6 @@ def test_a_few_flashes_do_not_flatten_a_film() -> None:
     film = ArrayFilm(frames)
     motion = measure_motion(film, stabilise=False, report=lambda done, total: None)
     assert aligned_frame(film, motion, 0)[10, 10] == pytest.approx(200, rel=0.01)
-
-
-def test_a_nan_is_refused_with_its_frame() -> None:
-    frames = np.zeros((3, 4, 4), np.float32)
-    frames[2, 1, 1] = np.nan
-    with pytest.raises(FilmError, match="frame 2 holds values that are not finite"):
-        aligned_frame(ArrayFilm(frames), still(3), 2)
 
 
 @given(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4))

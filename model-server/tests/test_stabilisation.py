@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+from collections.abc import Callable
+
 import cv2
 import numpy as np
 import pytest
 
+from memtrack.errors import FilmError
 from memtrack.film import ArrayFilm
+from memtrack.simulation.families import draw_recipe
+from memtrack.simulation.film import simulate
 from memtrack.simulation.scenes import mottled
 from memtrack.stabilisation import measure_motion, overlap
 
@@ -43,6 +48,38 @@ def test_a_stage_that_jumps_is_followed() -> None:
     np.testing.assert_allclose(measured(drifting(drift)), drift, atol=0.12)
 
 
+def noise_alone(shape: tuple[int, int]) -> np.ndarray:
+    return np.clip(np.random.default_rng(9).normal(8, 3, shape), 0, 255)
+
+
+def another_place(shape: tuple[int, int]) -> np.ndarray:
+    return np.clip(mottled(*shape, 1.0, np.random.default_rng(11)) * 18 + 117, 0, 255)
+
+
+@pytest.mark.parametrize("dark", [[0], [0, 1, 2], [1], [14], [13, 14, 15], [29]], ids=str)
+@pytest.mark.parametrize("shown", [np.zeros, lambda shape: np.full(shape, 255), noise_alone, another_place])
+def test_frames_that_do_not_show_the_scene_do_not_disturb_the_others(
+    dark: list[int], shown: Callable[[tuple[int, int]], np.ndarray]
+) -> None:
+    rng = np.random.default_rng(3)
+    drift = np.cumsum(rng.normal([0.3, -0.2], 0.2, (30, 2)), axis=0)
+    film = drifting(drift, cells=6)
+    frames = np.stack([film.frame(i) for i in range(30)])
+    frames[dark] = shown((film.height, film.width)).astype(np.uint8)
+    error = measured(ArrayFilm(frames)) - drift
+    error -= np.median(error, axis=0)
+    assert np.abs(np.delete(error, dark, axis=0)).max() < 0.2
+    assert np.abs(error[dark]).max() < 2  # between its neighbours
+
+
+def test_a_scene_that_changes_and_wobbles_is_not_taken_for_a_stage_that_jumps() -> None:
+    rng = np.random.default_rng(9_000_002)
+    made = simulate(draw_recipe("collagen", rng, width=480, height=400, frames=int(rng.integers(60, 141))), 9_000_002)
+    assert made.recipe.wobble > 0.3
+    assert made.recipe.restless > 0.15
+    assert np.abs(measured(made.film) - made.drift).max() < 0.5
+
+
 def test_a_still_film_stays_still() -> None:
     assert np.abs(measured(drifting(np.zeros((10, 2)), cells=10))).max() < 0.1
 
@@ -56,6 +93,24 @@ def test_swimmers_in_front_of_nothing_are_no_drift() -> None:
             x, y = place + i * step
             cv2.circle(frames[i], (round(x), round(y)), 3, 60.0, -1)
     assert np.abs(measured(ArrayFilm(frames.astype(np.uint8)))).max() == 0
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_values_that_are_not_finite_are_refused(bad: float) -> None:
+    frames = np.stack([drifting(np.zeros((3, 2))).frame(i) for i in range(3)]).astype(np.float32)
+    frames[2, 7, 5] = bad
+    with pytest.raises(FilmError, match="frame 2 holds values that are not finite"):
+        measured(ArrayFilm(frames))
+
+
+def test_one_dark_frame_leaves_the_gain_of_the_others() -> None:
+    lamp = 1 + 0.05 * np.sin(np.arange(20.0))
+    film = drifting(np.zeros((20, 2)), lamp=lamp)
+    frames = np.stack([film.frame(i) for i in range(20)])
+    frames[6] = 0
+    motion = measure_motion(ArrayFilm(frames), stabilise=False, report=lambda done, total: None)
+    assert motion.gain[6] == 1
+    np.testing.assert_allclose(np.delete(motion.gain * lamp, 6), np.median(lamp), rtol=0.02)
 
 
 def test_gain_undoes_the_flicker() -> None:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Float64, UInt16
 
-from memtrack.errors import FilmError
 from memtrack.film import Film
 from memtrack.resampling import read_shifted
 from memtrack.stabilisation import FilmMotion
@@ -49,18 +48,8 @@ def split_drift(drift: Float64[np.ndarray, " 2"]) -> tuple[tuple[int, int], tupl
 
 
 def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndarray, "height width"]:
-    """Frame `index`, corrected and moved back by the part of its drift below one pixel.
-
-    Raises:
-        FilmError: the frame holds a NaN or an infinite value.
-    """
-    frame = film.frame(index)
-    values = frame.astype(np.float32)
-    if frame.dtype.kind == "f" and not np.isfinite(values).all():
-        raise FilmError(
-            f"frame {index} holds values that are not finite (NaN or infinity): replace them, for example with "
-            "Process > Math > NaN Background, and run again"
-        )
+    """Frame `index`, corrected and moved back by the part of its drift below one pixel."""
+    values = film.frame(index).astype(np.float32)
     return read_shifted(motion.corrected(values, index), *split_drift(motion.drift[index])[1])
 
 

@@ -18,6 +18,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float32, Float64
 
+from memtrack.errors import FilmError
 from memtrack.film import Film
 from memtrack.resampling import read_shifted
 
@@ -29,6 +30,12 @@ MIN_EDGE = 24
 AGREEMENT_PX = 0.12
 """Standard error of the blocks' common shift above which a film counts as having no static scene."""
 REFERENCE_FRAMES = 25
+LEAST_LIKENESS = 0.3
+"""Correlation with the reference from which an image shows the same scene; by chance two differ by up to a fifth."""
+LOST_LIKENESS = 0.4
+"""Share of a film's usual likeness below which a frame, a dark one for example, does not show the scene."""
+FIRST_FRAMES = 5
+"""Of these any may turn out to be the first one that shows the scene."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +65,9 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMoti
 
     First pass at a quarter of the size against the first frame (or, far from it, a later one), second at half the
     size against the median of the frames aligned so far.
+
+    Raises:
+        FilmError: a frame holds a NaN or an infinite value.
     """
     count = film.frame_count
     shrinks = stabilise and count > 1 and min(film.height, film.width) >= 4 * MIN_EDGE
@@ -67,6 +77,11 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMoti
     drift = np.zeros((count, 2))
     for i in range(count):
         frame = film.frame(i).astype(np.float32)
+        if not np.isfinite(cv2.norm(frame, cv2.NORM_L1)):
+            raise FilmError(
+                f"frame {i} holds values that are not finite (NaN or infinity): replace them, for example with "
+                "Process > Math > NaN Background, and run again"
+            )
         means[i], brightest = cv2.mean(frame)[0], max(brightest, float(frame.max()))
         if shrinks:
             drift[i] = chain.add(_band_pass(frame, 4)) * 4
@@ -80,9 +95,10 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMoti
 
 def _gains(means: Float64[np.ndarray, " frame"]) -> Float64[np.ndarray, " frame"]:
     usual = float(np.median(means))
-    if usual <= 0 or means.min() <= 0.2 * usual or means.max() >= 5 * usual:
+    lit = (means > 0.2 * usual) & (means < 5 * usual)
+    if usual <= 0 or lit.mean() < 0.9:
         return np.ones(len(means))  # no lamp does that: dark or signed images have no brightness to compare
-    return usual / means
+    return np.divide(usual, means, out=np.ones(len(means)), where=lit)
 
 
 def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> Float64[np.ndarray, "n 2"]:
@@ -92,15 +108,16 @@ def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> 
     origin = np.median(drift, axis=0)
     aligned = [_aligned(_band_pass(film.frame(int(i)).astype(np.float32), 2), (drift[i] - origin) / 2) for i in chosen]
     reference = _Reference(_median_where_known(np.stack(aligned)))
-    refined, errors = drift.copy(), np.zeros(count)
+    refined, errors, alike = drift.copy(), np.zeros(count), np.zeros(count)
     for i in range(count):
         image = _band_pass(film.frame(i).astype(np.float32), 2)
         shift, errors[i] = register(reference, image, (drift[i] - origin) / 2, steps=3)
+        alike[i] = likeness(reference, image, shift)
         refined[i] = 2 * shift + origin
         report(count + i + 1, 2 * count)
     if np.median(errors) * 2 > AGREEMENT_PX:
         return np.zeros_like(drift)
-    lost = errors * 2 > 4 * AGREEMENT_PX
+    lost = (errors * 2 > 4 * AGREEMENT_PX) | (alike < LOST_LIKENESS * np.median(alike))
     if lost.any() and not lost.all():
         good = np.flatnonzero(~lost)
         for axis in range(2):
@@ -118,25 +135,39 @@ class _Reference:
 
 
 class _Chain:
-    """Drift of successive images against the first; a new reference is taken where too little of it is left."""
+    """Drift of successive images against the first; a new reference is taken where too little of it is left.
+
+    An image that fits far worse than usual is looked for anywhere, since a stage may jump, but only a place where it is
+    like the reference counts: a blank frame, or a scene that changes, fits somewhere by chance. Where there is no such
+    place, the stage is taken to stand where it was.
+    """
 
     def __init__(self) -> None:
         self._reference: _Reference | None = None
         self._origin = np.zeros(2)
         self._last = np.zeros(2)
         self._usual_error = np.inf
+        self._begun = 0
 
     def add(self, image: Image) -> Float64[np.ndarray, " 2"]:
-        if self._reference is None:
+        reference = self._reference
+        self._begun += 1
+        if reference is None:
             self._reference = _Reference(image)
-            return np.zeros(2)
-        shift, error = register(self._reference, image, self._last - self._origin, steps=5)
-        if error > 3 * self._usual_error:
+            return self._last
+        shift, error = register(reference, image, self._last - self._origin, steps=5)
+        begins = np.isinf(self._usual_error) and self._begun <= FIRST_FRAMES
+        if begins and likeness(reference, image, shift) < LEAST_LIKENESS:
+            self._reference = _Reference(image)  # the first frames may be dark, or of another place
+            return self._last
+        if not error <= 3 * self._usual_error:
             window = cv2.createHanningWindow(image.shape[::-1], cv2.CV_32F)
-            jump, _ = cv2.phaseCorrelate(self._reference.image, image, window)
-            retried, retried_error = register(self._reference, image, np.array(jump), steps=5)
-            if retried_error < error:
-                shift, error = retried, retried_error
+            jump, _ = cv2.phaseCorrelate(reference.image, image, window)
+            places = [(shift, error), register(reference, image, np.array(jump), steps=5)]
+            alike = [likeness(reference, image, place[0]) for place in places]
+            shift, error = places[int(np.argmax(alike))]
+            if max(alike) < LEAST_LIKENESS:
+                return self._last
         self._usual_error = error if np.isinf(self._usual_error) else 0.9 * self._usual_error + 0.1 * error
         self._last = self._origin + shift
         if np.any(np.abs(shift) > 0.2 * np.array(image.shape[::-1])):
@@ -182,9 +213,7 @@ def register(
     """
     shift, error = np.asarray(start, np.float64), np.inf
     for _ in range(steps):
-        whole = np.rint(shift).astype(int)
-        target, source = overlap(reference.image.shape, whole)
-        moved = read_shifted(image, *(shift - whole))[source]
+        target, moved = _moved_back(reference, image, shift)
         if min(moved.shape) < MIN_EDGE // 2:
             return np.asarray(start, np.float64), np.inf
         residual = reference.image[target] - moved
@@ -193,6 +222,27 @@ def register(
         if np.abs(change).max() < 0.01:
             break
     return shift, error
+
+
+def likeness(reference: _Reference, image: Image, shift: Float64[np.ndarray, " 2"]) -> float:
+    """Correlation, in [-1, 1], of what both images show if the scene stands `shift` further in `image` than in
+    `reference`; 0 where that is hardly anything."""
+    target, moved = _moved_back(reference, image, shift)
+    if min(moved.shape) < MIN_EDGE // 2:
+        return 0.0
+    still = reference.image[target] - reference.image[target].mean()
+    moved = moved - moved.mean()
+    norm = float(np.linalg.norm(still)) * float(np.linalg.norm(moved))
+    return float((still * moved).sum()) / norm if norm > 0 else 0.0
+
+
+def _moved_back(
+    reference: _Reference, image: Image, shift: Float64[np.ndarray, " 2"]
+) -> tuple[Window, Float32[np.ndarray, "shown_h shown_w"]]:
+    """The part of `reference` that `image` shows as well, and that part of `image`, moved back by `shift`."""
+    whole = np.rint(shift).astype(int)
+    target, source = overlap(reference.image.shape, whole)
+    return target, read_shifted(image, *(shift - whole))[source]
 
 
 def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndarray, " 2"], float]:
@@ -208,7 +258,10 @@ def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndar
     determinant = (a + ridge) * (c + ridge) - b * b
     shifts = np.stack([(c + ridge) * u - b * v, (a + ridge) * v - b * u], axis=1) / determinant[:, None]
     trust = np.minimum(a + c, np.median(a + c) + 1e-12)  # one bright cell must not outvote the scene
-    trust /= trust.sum()
+    total = float(trust.sum())
+    if not 0 < total < math.inf:
+        return np.zeros(2), np.inf  # nothing to tell a shift by
+    trust /= total
     common = np.array([_weighted_median(shifts[:, axis], trust) for axis in range(2)])
     spread = max(_weighted_median(np.abs(shifts[:, axis] - common[axis]), trust) for axis in range(2))
     close = np.abs(shifts - common).max(axis=1) <= 2.5 * spread + 1e-9
