@@ -39,6 +39,15 @@ def test_a_bright_spot_is_a_positive_deviation_in_its_frame_and_a_dark_one_negat
     assert np.abs(after[20:24, 30:34].mean() - NEUTRAL) < 15
 
 
+def test_a_frame_without_light_holds_nothing_and_its_neighbours_see_nothing_in_it() -> None:
+    frames = noisy(30)
+    frames[12] = 0
+    made = features_of(frames, FeatureSpec("s", 1, ("grey", "deviation", "deviation-2", "deviation-8:-1")))
+    assert (made.frame(12)[:2] == NEUTRAL).all()
+    assert (made.frame(14)[2] == NEUTRAL).all()
+    assert np.abs(made.frame(15)[3].mean() - NEUTRAL) < 5
+
+
 def test_a_mean_of_deviations_shows_what_moves_slowly_and_is_less_noisy() -> None:
     frames = noisy(40)
     frames[20:28, 20:26, 30:36] += 8

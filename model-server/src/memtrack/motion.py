@@ -97,6 +97,9 @@ class FilmFeatures:
 
     def _grey_and_deviation(self, index: int) -> tuple[Channel, Channel]:
         """Both at once, since the frame is read and aligned long before it is the current one."""
+        if index in self.motion.unlit:
+            neutral = np.full((self.film.height, self.film.width), NEUTRAL, np.uint8)
+            return neutral, neutral
         if index not in self._known:
             aligned = aligned_frame(self.film, self.motion, index)
             grey = signed((aligned - self.scene.shading(index)) * np.float32(2 / self.scene.texture(index)))

@@ -43,12 +43,14 @@ class FilmMotion:
     """Per frame: `drift` (x, y), how far the scene stands from its place in frame 0, in pixels; `gain`, the factor
     that brings the frame to the film's usual brightness. `ceiling`: the highest grey level, after that correction, that
     all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken.
-    `pattern`: grey levels that the camera adds to every frame, None for none."""
+    `pattern`: grey levels that the camera adds to every frame, None for none. `unlit`: frames so dark or so bright that
+    they hold nothing to find, as while the lamp is off."""
 
     drift: Float64[np.ndarray, "frame 2"]
     gain: Float64[np.ndarray, " frame"]
     ceiling: float = math.inf
     pattern: Image | None = None
+    unlit: frozenset[int] = frozenset()
 
     def corrected(self, values: Image, index: int) -> Image:
         """Frame `index` as an even lamp and a clean camera would have taken it; works in place."""
@@ -88,17 +90,20 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress) -> FilmMoti
         report(i + 1, passes * count)
     if shrinks:
         drift = _refine(film, drift, report)
-    gain = _gains(means)
+    gain, unlit = _gains(means)
     # A few flashes do not lower the ceiling of the whole film.
-    return FilmMotion(drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)))
+    return FilmMotion(drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit)
 
 
-def _gains(means: Float64[np.ndarray, " frame"]) -> Float64[np.ndarray, " frame"]:
+def _gains(means: Float64[np.ndarray, " frame"]) -> tuple[Float64[np.ndarray, " frame"], frozenset[int]]:
+    """The factor for each frame, and the frames that no factor helps; these are few, or the means say nothing of the
+    lamp, as in dark or signed images."""
     usual = float(np.median(means))
     lit = (means > 0.2 * usual) & (means < 5 * usual)
     if usual <= 0 or lit.mean() < 0.9:
-        return np.ones(len(means))  # no lamp does that: dark or signed images have no brightness to compare
-    return np.divide(usual, means, out=np.ones(len(means)), where=lit)
+        return np.ones(len(means)), frozenset()
+    gain = np.divide(usual, means, out=np.ones(len(means)), where=lit)
+    return gain, frozenset(np.flatnonzero(~lit).tolist())
 
 
 def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> Float64[np.ndarray, "n 2"]:
@@ -176,10 +181,14 @@ class _Chain:
 
 
 def _band_pass(frame: Image, shrink: int) -> Float32[np.ndarray, "small_h small_w"]:
-    """`frame` at 1/`shrink` of its size without noise finer than a pixel and without shading."""
+    """`frame` at 1/`shrink` of its size, without shading and finer noise, of one contrast under any lamp."""
     h, w = (edge // shrink for edge in frame.shape)
     small = cv2.resize(frame[: h * shrink, : w * shrink], (w, h), interpolation=cv2.INTER_AREA)
-    return cv2.GaussianBlur(small, (0, 0), 1.0) - cv2.blur(small, (17, 17))
+    bands: np.ndarray = cv2.GaussianBlur(small, (0, 0), 1.0) - cv2.blur(small, (17, 17))
+    contrast = float(np.median(np.abs(bands[::3, ::3])))
+    if contrast > 0:
+        bands *= np.float32(1 / contrast)
+    return bands
 
 
 def _aligned(image: Image, drift: Float64[np.ndarray, " 2"]) -> Image:
