@@ -156,6 +156,18 @@ def test_a_film_of_one_value_runs(model: Model) -> None:
     assert all(not len(f.detections) for f in run(ArrayFilm(np.full((3, 50, 50), 9, np.uint16)), model))
 
 
+def test_stuck_pixels_do_not_swim_through_a_drifting_scene(model: Model) -> None:
+    made = simulate(replace(GEL, drift_per_frame=(0.2, 0.1)), 3)
+    frames = made.film.frames.copy()
+    rng = np.random.default_rng(1)
+    frames[:, rng.integers(0, 224, 40), rng.integers(0, 256, 40)] = 255
+    broken = SimulatedFilm(ArrayFilm(frames, made.film.calibration), made.truth, made.drift, made.recipe)
+    precision, recall, _ = judge(broken, run(broken.film, model))
+    clean_precision, clean_recall, _ = judge(made, run(made.film, model))
+    assert precision > clean_precision - 0.02
+    assert recall > clean_recall - 0.02
+
+
 def test_infinite_values_are_refused(model: Model) -> None:
     frames = np.zeros((3, 50, 50), np.float32)
     frames[1, 2, 3] = np.inf

@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from memtrack.background import split_drift
+from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
 from memtrack.detector import detect
 from memtrack.errors import SettingsError
@@ -92,6 +93,7 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
         EngineUnavailableError: the model's computing library is not installed.
     """
     _check(film, settings)
+    film = without_defects(film)
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     limits: dict[str, Any] = {
