@@ -202,6 +202,32 @@ def test_held_out_scenes_are_in_no_training_family() -> None:
     assert draw_recipe("foam", np.random.default_rng(1), width=64, height=64).scene == "foam"
 
 
+def drawn(family: str) -> list[Recipe]:
+    return [draw_recipe(family, np.random.default_rng(k), width=200, height=160) for k in range(40)]
+
+
+def test_families_that_are_hard_in_one_respect_are_so() -> None:
+    slow = [gait for recipe in drawn("slow") for gait in recipe.gaits]
+    assert np.mean([gait in (Gait.BROWNIAN, Gait.TRAPPED) for gait in slow]) > 0.7
+    for recipe in drawn("faint"):
+        noise = np.hypot(recipe.read_noise, recipe.shot_noise * np.sqrt(recipe.level / 255))
+        assert np.median([abs(look.contrast) for look in recipe.looks] or [0]) <= 5 * noise + 1e-6
+    for recipe in drawn("specks"):
+        assert len(recipe.gaits) <= 6
+        assert not recipe.decoys or (recipe.decoys >= 5 and recipe.wobble >= 0.1)
+    assert all(6 <= recipe.frames <= 30 for recipe in drawn("brief"))
+
+
+@pytest.mark.parametrize("bits", [8, 16])
+def test_a_caption_changes_a_small_part_of_each_frame_and_no_truth(bits: int) -> None:
+    recipe = replace(next(recipe for recipe in drawn("captioned") if recipe.gaits), frames=12, bits=bits)
+    plain, written = (simulate(replace(recipe, caption=caption), 3) for caption in (False, True))
+    differs = plain.film.frames != written.film.frames
+    assert 0 < differs.mean() < 0.1
+    assert (differs[0] != differs[-1]).any()  # the clock runs
+    np.testing.assert_array_equal(plain.truth.x, written.truth.x)
+
+
 def arguments(*words: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from memtrack.simulation import variations
 from memtrack.simulation.optics import Look
 from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import Gait
@@ -88,12 +89,28 @@ def _held_out(scene: str) -> Callable[[Recipe, np.random.Generator], Recipe]:
     return family
 
 
+def _varied(
+    vary: Callable[[Recipe, np.random.Generator], Recipe], share_of_water: float
+) -> Callable[[Recipe, np.random.Generator], Recipe]:
+    def family(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+        medium = water if rng.random() < share_of_water else collagen
+        return vary(medium(recipe, rng), rng)
+
+    family.__doc__ = f"Collagen or water. {vary.__doc__}"
+    return family
+
+
 FAMILIES: dict[str, Callable[[Recipe, np.random.Generator], Recipe]] = {
     "collagen": collagen,
     "water": water,
     "empty": empty,
     "foam": _held_out("foam"),
     "granular": _held_out("granular"),
+    "slow": _varied(variations.slow, 0.85),
+    "faint": _varied(variations.faint, 0.3),
+    "specks": _varied(variations.specks, 0.75),
+    "brief": _varied(variations.brief, 0.4),
+    "captioned": _varied(variations.captioned, 0.5),
 }
 HELD_OUT = ("foam", "granular")
 """Families that only validation films are drawn from."""

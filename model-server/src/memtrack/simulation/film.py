@@ -13,6 +13,7 @@ from memtrack.film import ArrayFilm, Calibration
 from memtrack.resampling import read_shifted
 from memtrack.simulation import scenes
 from memtrack.simulation.bacteria import bacteria
+from memtrack.simulation.captions import burn_in
 from memtrack.simulation.optics import Look, draw
 from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import World, swim
@@ -55,6 +56,8 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
     lamp = 1 + recipe.flicker * rng.standard_normal(n)
     lamp *= 1 + recipe.lamp_drift * np.sin(np.linspace(0, rng.uniform(1, 6), n) + rng.uniform(0, 6))
     frames = np.stack([_expose(recipe, scene.frame(i) + layers[i], lamp[i], rng) for i in range(n)])
+    if recipe.caption:
+        burn_in(frames, recipe.frame_interval_seconds, rng)
     calibration = Calibration(recipe.pixel_size_um, recipe.frame_interval_seconds)
     truth = truth_of(recipe, paths, drift, scene.still_medium, calibration)
     return SimulatedFilm(ArrayFilm(frames, calibration), truth, drift, recipe)

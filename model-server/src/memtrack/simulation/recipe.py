@@ -19,7 +19,7 @@ class Recipe:
     reach of fibre movement. restless: slow change of the scene, as a share of it. clutter: moving blurred blobs, their
     contrast in grey levels and their flow in pixels a frame. shutter: share of a frame's time the camera sees.
     read_noise, shot_noise: sd in grey levels, the second at full scale. decoys: static rods that look like bacteria.
-    jpeg: quality, 0 for none.
+    jpeg: quality, 0 for none. caption: a clock and a scale bar are burnt in.
     """
 
     width: int = 320
@@ -50,6 +50,7 @@ class Recipe:
     decoys: int = 6
     dust: float = 0.0
     jpeg: int = 0
+    caption: bool = False
     speed_um_s: float = 10.0
     depth_spread: float = 0.6
     gaits: tuple[Gait, ...] = ()

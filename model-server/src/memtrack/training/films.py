@@ -158,6 +158,7 @@ def _key(films: SimulatedSet, spec: FeatureSpec) -> str:
 
 _SHAPING = {
     *("film.py", "recipe.py", "families.py", "scenes.py", "swimming.py", "optics.py", "bacteria.py", "truth.py"),
+    *("variations.py", "captions.py"),
     *("stabilisation.py", "background.py", "fixed_pattern.py", "wobble.py", "scene.py"),
     *("channels.py", "motion.py", "flow.py", "resampling.py"),
 }

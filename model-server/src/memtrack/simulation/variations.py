@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What makes a drawn film hard in one respect: each takes a recipe and returns it changed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from memtrack.simulation.optics import Look
+from memtrack.simulation.recipe import Recipe
+from memtrack.simulation.swimming import Gait
+
+
+def slow(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """Most bacteria hardly leave their place, so that they are nearly part of the background."""
+    gaits = [Gait.BROWNIAN, Gait.TRAPPED, Gait.SWIMMING, Gait.STUCK]
+    chosen = rng.choice(len(gaits), len(recipe.gaits), p=[0.45, 0.35, 0.15, 0.05])
+    return replace(recipe, gaits=tuple(gaits[k] for k in chosen))
+
+
+def faint(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """Bacteria, and what looks like them, whose contrast is 1.2 to 5 times the camera's noise."""
+    contrasts = [abs(look.contrast) for look in recipe.looks]
+    if not contrasts:
+        return recipe
+    noise = float(np.hypot(recipe.read_noise, recipe.shot_noise * np.sqrt(recipe.level / 255)))
+    wanted = noise * float(np.exp(rng.uniform(np.log(1.2), np.log(5))))
+    factor = min(1.0, wanted / float(np.median(contrasts)))
+    return replace(
+        recipe,
+        looks=tuple(replace(look, contrast=look.contrast * factor) for look in recipe.looks),
+        decoy_looks=tuple(replace(look, contrast=look.contrast * factor) for look in recipe.decoy_looks),
+    )
+
+
+def specks(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """Few bacteria among many of their look-alikes, which tremble in front of little noise."""
+    pool = [*recipe.looks, *recipe.decoy_looks]
+    if not pool:
+        return recipe
+    few = int(rng.integers(0, min(6, len(recipe.looks)) + 1))
+    quiet = float(np.exp(rng.uniform(np.log(0.1), np.log(0.6))))
+    decoys = tuple(_like(pool[int(rng.integers(len(pool)))], rng) for _ in range(int(rng.integers(5, 25))))
+    return replace(
+        recipe,
+        gaits=recipe.gaits[:few],
+        looks=recipe.looks[:few],
+        decoys=len(decoys),
+        decoy_looks=decoys,
+        wobble=float(rng.uniform(0.1, 0.8)),
+        read_noise=recipe.read_noise * quiet,
+        shot_noise=recipe.shot_noise * quiet,
+    )
+
+
+def brief(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """A film of 6 to 30 frames."""
+    return replace(recipe, frames=int(rng.integers(6, 31)))
+
+
+def captioned(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """A clock that runs and a scale bar are burnt into the frames."""
+    return replace(recipe, caption=True)
+
+
+def _like(look: Look, rng: np.random.Generator) -> Look:
+    return replace(look, contrast=look.contrast * float(rng.lognormal(0, 0.4)))
