@@ -10,6 +10,7 @@ from memtrack.detector import Decoder, detect, padded
 from memtrack.engines import OpenVinoEngine
 from memtrack.errors import EngineUnavailableError, SettingsError
 from memtrack.models import load_model
+from memtrack.pruning import prune
 
 
 class Fixed:
@@ -89,6 +90,23 @@ def test_a_flood_of_candidates_is_cut_to_the_best() -> None:
     found = detect(Fixed(maps), Decoder(), np.zeros((1, 400, 400), np.uint8))
     assert len(found) == 1500
     assert found.scores.min() > 1 / (1 + np.exp(-0.69))
+
+
+def test_a_large_frame_keeps_the_candidates_of_all_its_bacteria() -> None:
+    """1100 bacteria in 2048 x 2048 pixels, of four places each."""
+    maps = silent(512, 512)
+    rows, columns = np.divmod(np.arange(1100) * 225, 500)
+    for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        maps[0, rows + down, columns + right] = 2.0
+        maps[4, rows + down, columns + right] = 0.5 - right
+        maps[5, rows + down, columns + right] = 0.5 - down
+    found = Decoder().decode(maps, 2048, 2048)
+    assert len(found) == 4400
+    centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    expected = np.stack([columns, rows], axis=1) * 4 + 3.5
+    np.testing.assert_allclose(np.unique(centres, axis=0), np.unique(expected, axis=0), atol=1e-3)
+    kept, _ = prune(found, thresholds=(0.5, 0.5, 0.5), max_size_px=35, nms_iou=0.7)
+    assert len(kept) == 1100
 
 
 def test_both_engines_of_the_shipped_model_agree() -> None:

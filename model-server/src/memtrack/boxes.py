@@ -6,6 +6,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
+from memtrack.neighbours import led_by_the_best
+
 Boxes = Float[np.ndarray, "n 4"]
 
 
@@ -40,10 +42,11 @@ def non_maximum_suppression(
 
     Boxes with equal scores keep their order (paper section "False Positive Pruner": IoU 0.7).
     """
-    order = np.argsort(-scores, kind="stable")
-    overlaps = pairwise_iou(boxes[order], boxes[order]) > iou
-    alive = np.ones(len(order), bool)
-    for i in range(len(order)):
-        if alive[i]:
-            alive[i + 1 :] &= ~overlaps[i, i + 1 :]
-    return order[alive]
+    corners = boxes.astype(np.float64)
+    tallest = float((corners[:, 3] - corners[:, 1]).max(initial=0))
+
+    def overlap(rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+        return pairwise_iou(corners[rows], corners[columns]) > iou
+
+    best = [i for i, _ in led_by_the_best(scores, corners[:, 1], tallest, overlap)]
+    return np.array(best, np.intp)
