@@ -121,7 +121,7 @@ def test_colour_is_turned_grey_with_a_note(tmp_path: Path) -> None:
     path = tmp_path / "film.tif"
     colour = np.stack([FILM, FILM // 2, FILM // 3], axis=-1)
     tifffile.imwrite(path, colour, photometric="rgb")
-    expected = (colour @ np.array([0.299, 0.587, 0.114])).astype(np.uint8)
+    expected = np.rint(colour @ np.array([0.299, 0.587, 0.114])).astype(np.uint8)
     check(path, expected, (COLOUR_NOTE,))
     tifffile.imwrite(path, np.stack([FILM] * 3, axis=-1), photometric="rgb")
     check(path, FILM)
@@ -144,6 +144,22 @@ def test_a_folder_of_png_in_natural_order(tmp_path: Path, depth: str) -> None:
     (folder / "notes.txt").write_text("not a frame", encoding="utf-8")
     (folder / "._bild 0.png").write_bytes(b"left by macOS")
     check(folder, film.astype(depth))
+
+
+@pytest.mark.parametrize(("red", "green", "blue"), [(200, 20, 10), (201, 101, 50)])
+def test_a_png_with_colours_and_alpha_is_weighted_as_one_without(
+    tmp_path: Path, red: int, green: int, blue: int
+) -> None:
+    bgra = np.full((4, 5, 4), [blue, green, red, 255], np.uint8)
+    for name, image in (("with.png", bgra), ("without.png", bgra[..., :3])):
+        (tmp_path / name).write_bytes(cv2.imencode(".png", np.ascontiguousarray(image))[1].tobytes())
+    expected = round(0.299 * red + 0.587 * green + 0.114 * blue)
+    check(tmp_path, np.full((2, 4, 5), expected, np.uint8), (COLOUR_NOTE,))
+
+
+def test_colours_of_floating_point_are_not_rounded() -> None:
+    colour = np.array([[[0.2, 0.4, 0.1]]], np.float32)
+    np.testing.assert_allclose(grey(colour), [[0.299 * 0.2 + 0.587 * 0.4 + 0.114 * 0.1]], rtol=1e-6)
 
 
 def test_names_with_numbers_sort_by_their_value() -> None:

@@ -13,7 +13,7 @@ import cv2
 from memtrack.errors import FilmError
 from memtrack.film import Calibration
 from memtrack.spool import FilmGeometry, SpooledFilm, default_folder
-from memtrack.video.source import Frame, Source, grey, notes_on
+from memtrack.video.source import Frame, Source, grey, notes_on, red_first
 
 
 @contextlib.contextmanager
@@ -55,7 +55,7 @@ class _Decoder:
         decoded, image = self._capture.read()
         if not decoded:
             raise StopIteration
-        image = image[..., ::-1] if image.ndim == 3 else image
+        image = red_first(image)
         self.notes = self.notes or notes_on(image)
         return grey(image)
 

@@ -51,7 +51,8 @@ def grey(image: Shaped[np.ndarray, "..."]) -> Frame:
     if image.ndim == 3 and image.shape[2] in (3, 4):
         rgb = image[..., :3]
         same = (rgb == rgb[..., :1]).all()
-        image = rgb[..., 0] if same else (rgb @ np.array([0.299, 0.587, 0.114])).astype(image.dtype)
+        brightness = rgb[..., 0] if same else rgb @ np.array([0.299, 0.587, 0.114])
+        image = (np.rint(brightness) if image.dtype.kind in "iu" else brightness).astype(image.dtype)
     elif image.ndim == 3 and image.shape[2] in (1, 2):
         image = image[..., 0]
     if image.ndim != 2:
@@ -84,4 +85,9 @@ def decode(content: bytes, name: str) -> Shaped[np.ndarray, "..."]:
     image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED) if content else None
     if image is None:
         raise FilmError(f"{name} cannot be decoded as an image; export the frames again")
-    return image[..., ::-1] if image.ndim == 3 and image.shape[2] == 3 else image
+    return red_first(image)
+
+
+def red_first(image: Shaped[np.ndarray, "..."]) -> Shaped[np.ndarray, "..."]:
+    """An image as OpenCV gives it, blue first, with its red first."""
+    return image[..., [2, 1, 0, 3][: image.shape[2]]] if image.ndim == 3 and image.shape[2] >= 3 else image
