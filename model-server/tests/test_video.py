@@ -14,6 +14,7 @@ from memtrack.film import Calibration
 from memtrack.video import OpenedFilm, open_film
 from memtrack.video.folder import natural
 from memtrack.video.source import COLOUR_NOTE, INTEGER_NOTE, grey
+from memtrack.video.tiff import _decoded_by_opencv
 
 FILM = np.random.default_rng(0).integers(0, 250, (12, 9, 14)).astype(np.uint8)
 HARD_NAME = "Film [1] für 细菌 ü"
@@ -46,6 +47,67 @@ def test_multi_page_tiff(tmp_path: Path, dtype: str, compression: str | None, by
     film = FILM.astype(dtype)
     tifffile.imwrite(path, film, compression=compression, byteorder=byteorder, photometric="minisblack")
     assert check(path, film) == Calibration()
+
+
+def encoded(film: np.ndarray, compression: int) -> bytes:
+    """A multi-page TIFF as libtiff writes it."""
+    flags = [cv2.IMWRITE_TIFF_COMPRESSION, compression]
+    return cv2.imencodemulti(".tiff", list(film), flags)[1].tobytes()
+
+
+@pytest.mark.parametrize("dtype", ["uint8", "uint16", "float32"])
+def test_lzw_tiffs_are_read_as_a_film_and_as_a_folder(tmp_path: Path, dtype: str) -> None:
+    path = tmp_path / f"{HARD_NAME}.tif"
+    film = FILM.astype(dtype)
+    path.write_bytes(encoded(film, cv2.IMWRITE_TIFF_COMPRESSION_LZW))
+    check(path, film)
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for i, frame in enumerate(film):
+        (folder / f"{i}.tif").write_bytes(encoded(frame[None], cv2.IMWRITE_TIFF_COMPRESSION_LZW))
+    check(folder, film)
+
+
+@pytest.mark.parametrize("bigtiff", [False, True])
+@pytest.mark.parametrize("byteorder", ["<", ">"])
+def test_opencv_decodes_the_page_it_is_asked_for(tmp_path: Path, bigtiff: bool, byteorder: Any) -> None:
+    path = tmp_path / f"{HARD_NAME}.tif"
+    film = FILM.astype(np.uint16) * 200
+    tifffile.imwrite(path, film, compression="zlib", photometric="minisblack", bigtiff=bigtiff, byteorder=byteorder)
+    with tifffile.TiffFile(path) as file:
+        for i in (7, 0, 11):
+            np.testing.assert_array_equal(_decoded_by_opencv(file, file.pages[i]), film[i])
+
+
+def test_a_coloured_lzw_tiff_has_its_red_first(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    blue_green_red = np.full((2, 4, 5, 3), [10, 20, 200], np.uint8)
+    path.write_bytes(encoded(blue_green_red, cv2.IMWRITE_TIFF_COMPRESSION_LZW))
+    check(path, np.full((2, 4, 5), 73, np.uint8), (COLOUR_NOTE,))
+
+
+def test_a_page_that_cannot_be_decoded_is_refused_with_its_frame(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, compression="zlib", photometric="minisblack")
+    with tifffile.TiffFile(path) as file:
+        place = file.pages[3].dataoffsets[0]
+    content = bytearray(path.read_bytes())
+    content[place : place + 8] = b"\xff" * 8
+    path.write_bytes(content)
+    with open_film(path) as film, pytest.raises(FilmError, match=r"frame 3 of film\.tif cannot be read as TIFF"):
+        frames(film)
+
+
+def test_an_unknown_compression_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM[0], compression="zlib")
+    with tifffile.TiffFile(path, mode="r+") as file:
+        file.pages.first.tags["Compression"].overwrite(tifffile.COMPRESSION.LERC)
+    with (
+        pytest.raises(FilmError, match=r"frame 0 of film\.tif cannot be read .*LERC.*; save the film again"),
+        open_film(path),
+    ):
+        pass
 
 
 @pytest.mark.parametrize(("unit", "factor"), [("um", 1), ("micron", 1), ("\\u00B5m", 1), ("nm", 1e-3), ("mm", 1e3)])
@@ -172,6 +234,12 @@ def test_a_folder_of_single_tiffs(tmp_path: Path) -> None:
     for i, frame in enumerate(FILM):
         tifffile.imwrite(tmp_path / f"frame_{i:03}.tif", frame)
     check(tmp_path, FILM)
+
+
+def test_a_folder_of_films_is_refused(tmp_path: Path) -> None:
+    tifffile.imwrite(tmp_path / "a.tif", FILM, photometric="minisblack")
+    with pytest.raises(FilmError, match=r"a\.tif holds 12 images, but a folder is read as one image a file"):
+        check(tmp_path, FILM)
 
 
 def test_an_avi_is_read_without_loss_or_shift(tmp_path: Path) -> None:

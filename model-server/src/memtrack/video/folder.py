@@ -10,11 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import tifffile
 from jaxtyping import Shaped
 
 from memtrack.errors import FilmError
 from memtrack.video.source import Source, decode, grey, notes_on
+from memtrack.video.tiff import read_tiff
 
 SUFFIXES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
 
@@ -48,8 +48,5 @@ def natural(name: str) -> list[tuple[float, str]]:
 
 def _read(file: Path) -> Shaped[np.ndarray, "..."]:
     if file.suffix.lower() in (".tif", ".tiff"):
-        try:
-            return tifffile.imread(file)
-        except (tifffile.TiffFileError, OSError, ValueError) as error:
-            raise FilmError(f"{file.name} cannot be read as TIFF ({error}); export the frames again") from error
+        return read_tiff(file)
     return decode(file.read_bytes(), file.name)

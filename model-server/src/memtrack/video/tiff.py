@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import contextlib
 import math
+import struct
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import cv2
 import defusedxml.ElementTree
 import numpy as np
 import tifffile
@@ -17,7 +19,7 @@ from jaxtyping import Shaped
 
 from memtrack.errors import FilmError
 from memtrack.film import Calibration
-from memtrack.video.source import Source, notes_on
+from memtrack.video.source import Source, notes_on, red_first
 
 _MICROMETRES = {"um": 1.0, "µm": 1.0, "μm": 1.0, "micron": 1.0, "microns": 1.0, "micrometer": 1.0, "nm": 1e-3,
                 "mm": 1e3, "cm": 1e4, "m": 1e6, "inch": 25400.0}  # fmt: skip
@@ -32,21 +34,51 @@ def open_tiff(path: Path) -> Iterator[Source]:
     Raises:
         FilmError: it is no TIFF, or has more than one dimension besides the plane.
     """
+    with contextlib.ExitStack() as stack:
+        with _readable(path.name):
+            file = stack.enter_context(tifffile.TiffFile(path))
+            series = _first_series(file)
+            count, notes = _frames(series, path.name)
+            if len(file.series) > 1:
+                notes.append(f"Only the first of {len(file.series)} series of images in {path.name} is used.")
+            height, width = series.shape[series.axes.index("Y")], series.shape[series.axes.index("X")]
+            read = _reader(file, series)
+            notes += notes_on(read(0))
+            calibration = _calibration(file)
+        yield Source(count, height, width, read, calibration, tuple(notes))
+
+
+def read_tiff(path: Path) -> Shaped[np.ndarray, "..."]:
+    """The one image in a TIFF.
+
+    Raises:
+        FilmError: it is no TIFF, or holds several images.
+    """
+    with _readable(path.name), tifffile.TiffFile(path) as file:
+        series = _first_series(file)
+        count, _ = _frames(series, path.name)
+        if count > 1:
+            raise FilmError(
+                f"{path.name} holds {count} images, but a folder is read as one image a file; give the file"
+            )
+        return _reader(file, series)(0)
+
+
+@contextlib.contextmanager
+def _readable(what: str) -> Iterator[None]:
+    """Turns whatever a damaged or unknown TIFF makes tifffile and OpenCV raise into a FilmError."""
     try:
-        file = tifffile.TiffFile(path)
-    except (tifffile.TiffFileError, OSError, ValueError) as error:
-        raise FilmError(f"{path.name} cannot be read as TIFF ({error}); save the film again from Fiji") from error
-    with file:
-        if not file.series:
-            raise FilmError(f"{path.name} holds no image; save the film again from Fiji")
-        series = file.series[0]
-        count, notes = _frames(series, path.name)
-        if len(file.series) > 1:
-            notes.append(f"Only the first of {len(file.series)} series of images in {path.name} is used.")
-        height, width = series.shape[series.axes.index("Y")], series.shape[series.axes.index("X")]
-        read = _reader(file, series)
-        notes += notes_on(read(0))
-        yield Source(count, height, width, read, _calibration(file), tuple(notes))
+        yield
+    except FilmError:
+        raise
+    except Exception as error:
+        raise FilmError(f"{what} cannot be read as TIFF ({error}); save the film again from Fiji") from error
+
+
+def _first_series(file: tifffile.TiffFile) -> tifffile.TiffPageSeries:
+    if not file.series:
+        raise FilmError(f"{file.filename} holds no image; save the film again from Fiji")
+    return file.series[0]
 
 
 def _frames(series: tifffile.TiffPageSeries, name: str) -> tuple[int, list[str]]:
@@ -76,20 +108,36 @@ def _reader(file: tifffile.TiffFile, series: tifffile.TiffPageSeries) -> Callabl
         samples = math.prod(plane)
 
         def read_contiguous(index: int) -> Shaped[np.ndarray, "..."]:
-            with lock:
+            with lock, _readable(f"frame {index} of {file.filename}"):
                 found = file.filehandle.read_array(dtype, samples, start + index * samples * dtype.itemsize)
             return found.reshape(plane)
 
         return read_contiguous
 
+    codec = series.keyframe
+    known = codec.compression in tifffile.TIFF.DECOMPRESSORS and codec.predictor in tifffile.TIFF.UNPREDICTORS
+
     def read_page(index: int) -> Shaped[np.ndarray, "..."]:
-        page = series.pages[index] if index < len(series.pages) else None
-        if page is None:
-            raise FilmError(f"frame {index} is missing in {file.filename}; save the film again from Fiji")
-        with lock:
-            return page.asarray()
+        with lock, _readable(f"frame {index} of {file.filename}"):
+            page = series.pages[index] if index < len(series.pages) else None
+            if page is None:
+                raise FilmError(f"frame {index} is missing in {file.filename}; save the film again from Fiji")
+            return page.asarray() if known else _decoded_by_opencv(file, page)
 
     return read_page
+
+
+def _decoded_by_opencv(file: tifffile.TiffFile, page: Any) -> Shaped[np.ndarray, "..."]:
+    """A page in a compression that tifffile leaves to a library of its own, such as LZW.
+
+    OpenCV decodes the first page; so it gets the file, mapped, with this page's place in its header.
+    """
+    mapped = np.memmap(file.filehandle.path, np.uint8, "c")
+    struct.pack_into(file.tiff.offsetformat, mapped.data, file.tiff.offsetsize, page.offset)
+    image = cv2.imdecode(mapped, cv2.IMREAD_UNCHANGED)
+    if image is None:
+        raise ValueError(f"its compression is {page.keyframe.compression!r}")
+    return red_first(image)
 
 
 def _calibration(file: tifffile.TiffFile) -> Calibration:
