@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -108,6 +109,56 @@ def test_an_unknown_compression_is_refused_in_one_sentence(tmp_path: Path) -> No
         open_film(path),
     ):
         pass
+
+
+@pytest.mark.parametrize(
+    "options", [{"imagej": True}, {"ome": True}, {}, {"compression": "zlib"}], ids=["imagej", "ome", "plain", "zlib"]
+)
+def test_a_tiff_that_broke_off_is_refused_or_lacks_no_frame(tmp_path: Path, options: dict[str, Any]) -> None:
+    path = tmp_path / "film.tif"
+    film = np.repeat(np.repeat(FILM, 6, axis=1), 6, axis=2)
+    tifffile.imwrite(path, film, photometric="minisblack", **options)
+    content = path.read_bytes()
+    sentences = []
+    for part in range(1, 40):
+        path.write_bytes(content[: len(content) * part // 40])
+        try:
+            check(path, film)
+        except FilmError as error:
+            sentences.append(str(error))
+    assert len(sentences) > 15
+    whole = re.compile(r"film\.tif holds \d+ of \d+ frames|film\.tif breaks off after \d+ frame|cannot be read as TIFF")
+    assert all(whole.search(sentence) for sentence in sentences)
+
+
+def test_the_frames_an_imagej_film_promises_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM[0], description="ImageJ=1.54p\nimages=6\nframes=6\n", metadata=None)
+    with (
+        pytest.raises(FilmError, match=r"film\.tif holds 1 of 6 frames, the rest is lost; copy it again"),
+        open_film(path),
+    ):
+        pass
+
+
+def test_pages_that_promise_nothing_must_end_where_the_last_one_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    with tifffile.TiffWriter(path) as writer:
+        for frame in FILM:
+            writer.write(frame, metadata=None, contiguous=False)
+    check(path, FILM)
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+    with pytest.raises(FilmError, match=r"film\.tif breaks off after [5-7] frame\(s\); copy it again"), open_film(path):
+        pass
+
+
+def test_opencv_does_not_decode_a_page_that_is_cut_off(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, compression="zlib", photometric="minisblack")
+    path.write_bytes(path.read_bytes()[:-1])
+    with tifffile.TiffFile(path) as file, pytest.raises(ValueError, match="the file ends within it"):
+        _decoded_by_opencv(file, file.pages[-1])
 
 
 @pytest.mark.parametrize(("unit", "factor"), [("um", 1), ("micron", 1), ("\\u00B5m", 1), ("nm", 1e-3), ("mm", 1e3)])
@@ -242,15 +293,31 @@ def test_a_folder_of_films_is_refused(tmp_path: Path) -> None:
         check(tmp_path, FILM)
 
 
-def test_an_avi_is_read_without_loss_or_shift(tmp_path: Path) -> None:
-    path = tmp_path / f"{HARD_NAME}.avi"
-    film = np.repeat(np.repeat(FILM, 4, axis=1), 4, axis=2)
+def write_avi(path: Path, film: np.ndarray) -> None:
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"FFV1"), 25.0, film.shape[:0:-1], isColor=False)
     assert writer.isOpened()
     for frame in film:
         writer.write(frame)
     writer.release()
+
+
+def test_an_avi_is_read_without_loss_or_shift(tmp_path: Path) -> None:
+    path = tmp_path / f"{HARD_NAME}.avi"
+    film = np.repeat(np.repeat(FILM, 4, axis=1), 4, axis=2)
+    write_avi(path, film)
     assert check(path, film).frame_interval_seconds == pytest.approx(1 / 25)
+
+
+def test_an_avi_that_broke_off_is_refused_and_one_that_lost_a_frame_gets_a_note(tmp_path: Path) -> None:
+    path = tmp_path / "film.avi"
+    film = np.random.default_rng(0).integers(0, 250, (12, 48, 64)).astype(np.uint8)
+    write_avi(path, film)
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+    with pytest.raises(FilmError, match=r"film\.avi holds [3-6] of 12 frames, the rest is lost; copy"), open_film(path):
+        pass
+    path.write_bytes(content[: int(len(content) * 0.96)])
+    check(path, film[:11], ("film.avi holds 11 frames, its header says 12.",))
 
 
 def _text(path: Path) -> Path:

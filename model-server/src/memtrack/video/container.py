@@ -21,7 +21,7 @@ def open_container(path: Path) -> Iterator[Source]:
     """The film in a video file, decoded once from front to back into a spool: seeking in such files misses frames.
 
     Raises:
-        FilmError: it cannot be decoded.
+        FilmError: it cannot be decoded, or holds far fewer frames than it should.
     """
     with contextlib.closing(_Decoder(path)) as decoder:
         first = next(decoder, None)
@@ -36,7 +36,21 @@ def open_container(path: Path) -> Iterator[Source]:
                     raise FilmError(f"frame {film.frame_count} of {path.name} has another size than frame 0")
                 film.append(frame.tobytes())
                 film.geometry = replace(film.geometry, frame_count=film.frame_count + 1)
-            yield Source(film.frame_count, height, width, film.frame, decoder.calibration, decoder.notes)
+            notes = decoder.notes + _missing(path, film.frame_count, decoder.promised)
+            yield Source(film.frame_count, height, width, film.frame, decoder.calibration, notes)
+
+
+def _missing(path: Path, held: int, promised: int) -> tuple[str, ...]:
+    """A note where a file holds fewer frames than its header says; other containers than AVI only estimate them.
+
+    Raises:
+        FilmError: an AVI lacks so many that it broke off when it was written or copied, not a few that a camera lost.
+    """
+    if held >= promised:
+        return ()
+    if path.suffix.lower() == ".avi" and held < 0.9 * promised:
+        raise FilmError(f"{path.name} holds {held} of {promised} frames, the rest is lost; copy or record it again")
+    return (f"{path.name} holds {held} frames, its header says {promised}.",)
 
 
 class _Decoder:
@@ -46,6 +60,7 @@ class _Decoder:
         self._capture = cv2.VideoCapture(str(path))
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         self.calibration = Calibration(None, 1 / rate if rate > 0 else None)
+        self.promised = max(0, int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)))
         self.notes: tuple[str, ...] = ()
 
     def __iter__(self) -> _Decoder:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import os
 import struct
 import threading
 from collections.abc import Callable, Iterator
@@ -39,6 +40,7 @@ def open_tiff(path: Path) -> Iterator[Source]:
             file = stack.enter_context(tifffile.TiffFile(path))
             series = _first_series(file)
             count, notes = _frames(series, path.name)
+            _check_whole(file, series, count)
             if len(file.series) > 1:
                 notes.append(f"Only the first of {len(file.series)} series of images in {path.name} is used.")
             height, width = series.shape[series.axes.index("Y")], series.shape[series.axes.index("X")]
@@ -99,6 +101,43 @@ def _frames(series: tifffile.TiffPageSeries, name: str) -> tuple[int, list[str]]
     return math.prod(long.values()), notes
 
 
+def _check_whole(file: tifffile.TiffFile, series: tifffile.TiffPageSeries, count: int) -> None:
+    """Refuses a film that broke off when it was written or copied, of which tifffile gives the frames that are left."""
+    promised = _promised(file)
+    held = count
+    if series.dataoffset is not None:
+        held = min(count, (file.filehandle.size - series.dataoffset) // (series.nbytes // count))
+    if held < max(count, promised):
+        raise FilmError(
+            f"{file.filename} holds {held} of {max(count, promised)} frames, the rest is lost; "
+            "copy it again, or save it again from Fiji"
+        )
+    if promised < 2 and _next_page(file) != 0:
+        raise FilmError(f"{file.filename} breaks off after {count} frame(s); copy it again, or save it again from Fiji")
+
+
+def _promised(file: tifffile.TiffFile) -> int:
+    """Frames the film has by what ImageJ, OME or tifffile noted in its first page; 0 where none of them did."""
+    if file.imagej_metadata is not None:
+        return int(file.imagej_metadata.get("frames", 1)) * int(file.imagej_metadata.get("slices", 1))
+    if file.ome_metadata is not None:
+        sizes = _ome_pixels(file.ome_metadata)
+        return int(sizes.get("SizeT", 0)) * int(sizes.get("SizeZ", 1))
+    if file.shaped_metadata is not None:
+        return math.prod(file.shaped_metadata[0]["shape"]) // math.prod(file.pages.first.shape)
+    return 0
+
+
+def _next_page(file: tifffile.TiffFile) -> int:
+    """Where the page after the last one that can be read is said to be; 0 says that there is none."""
+    tiff, handle = file.tiff, file.filehandle
+    handle.seek(file.pages[-1].offset)
+    (tags,) = struct.unpack(tiff.tagnoformat, handle.read(tiff.tagnosize))
+    handle.seek(tags * tiff.tagsize, os.SEEK_CUR)
+    (offset,) = struct.unpack(tiff.offsetformat, handle.read(tiff.offsetsize))
+    return int(offset)
+
+
 def _reader(file: tifffile.TiffFile, series: tifffile.TiffPageSeries) -> Callable[[int], Shaped[np.ndarray, "..."]]:
     """Reads one frame: straight from its place where frames lie one after the other, else page by page."""
     plane = tuple(size for axis, size in zip(series.axes, series.shape, strict=True) if axis in "YXS")
@@ -132,6 +171,9 @@ def _decoded_by_opencv(file: tifffile.TiffFile, page: Any) -> Shaped[np.ndarray,
 
     OpenCV decodes the first page; so it gets the file, mapped, with this page's place in its header.
     """
+    ends = [start + size for start, size in zip(page.dataoffsets, page.databytecounts, strict=True)]
+    if max(ends) > file.filehandle.size:
+        raise ValueError("the file ends within it")
     mapped = np.memmap(file.filehandle.path, np.uint8, "c")
     struct.pack_into(file.tiff.offsetformat, mapped.data, file.tiff.offsetsize, page.offset)
     image = cv2.imdecode(mapped, cv2.IMREAD_UNCHANGED)
@@ -161,13 +203,18 @@ def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> Calibration:
     return Calibration(size, interval if interval > 0 else None)
 
 
-def _ome(text: str) -> Calibration:
+def _ome_pixels(text: str) -> dict[str, str]:
+    """What OME says of the first image."""
     try:
         root = defusedxml.ElementTree.fromstring(text)
     except (defusedxml.ElementTree.ParseError, defusedxml.DefusedXmlException):
-        return Calibration()
+        return {}
     pixels = root.find(".//{*}Pixels")
-    values = {} if pixels is None else pixels.attrib
+    return {} if pixels is None else dict(pixels.attrib)
+
+
+def _ome(text: str) -> Calibration:
+    values = _ome_pixels(text)
     return Calibration(
         _quantity(values, "PhysicalSizeX", "µm", _MICROMETRES), _quantity(values, "TimeIncrement", "s", _SECONDS)
     )
