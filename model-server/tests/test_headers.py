@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from memtrack.config import Limits
 from memtrack.errors import FilmError, MemtrackError, ResourceLimitError, SettingsError
 from memtrack.film import Calibration
-from memtrack.headers import read_header
+from memtrack.headers import check_scaled, read_header
 from memtrack.pipeline import DetectionSettings
+from memtrack.spool import FilmGeometry
 from memtrack.v1 import detection_pb2 as pb
 
 GOOD: dict[str, Any] = {"protocol": 1, "width": 660, "height": 492, "frame_count": 60, "pixel_type": 1}
@@ -89,6 +90,14 @@ def test_each_bad_field_gets_its_sentence(fields: dict[str, Any], kind: type[Mem
     with pytest.raises(kind, match=sentence) as refused:
         read_header(pb.FilmHeader(**{**GOOD, **fields}), Limits())
     assert "\n" not in str(refused.value)
+
+
+def test_the_limit_on_a_frame_holds_at_the_models_scale_too() -> None:
+    geometry = FilmGeometry(1000, 500, 1, np.dtype("u1"))
+    limits = Limits(max_frame_pixels=2_000_000)
+    check_scaled(geometry, 2.0, limits)
+    with pytest.raises(ResourceLimitError, match=r"1000 x 500 pixels, enlarged 2\.1 times .* more than the 2000000"):
+        check_scaled(geometry, 2.1, limits)
 
 
 numbers = st.floats(allow_nan=True, allow_infinity=True)

@@ -171,9 +171,11 @@ def test_imagej_tiff_tells_pixel_size_and_frame_interval(tmp_path: Path, unit: s
     assert calibration.frame_interval_seconds == 0.5
 
 
-def test_imagej_tiff_in_pixels_tells_no_size(tmp_path: Path) -> None:
+@pytest.mark.parametrize("unit", ["pixel", "inch"])
+def test_imagej_tiff_in_pixels_or_in_inches_of_a_screen_tells_no_size(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "film.tif"
-    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": "pixel", "fps": 25.0})
+    tags = {"axes": "TYX", "unit": unit, "fps": 25.0}
+    tifffile.imwrite(path, FILM, imagej=True, metadata=tags, resolution=(72.0, 72.0))
     assert check(path, FILM) == Calibration(None, 1 / 25)
 
 

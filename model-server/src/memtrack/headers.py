@@ -57,6 +57,19 @@ def read_header(header: pb.FilmHeader, limits: Limits) -> FilmRequest:
     return FilmRequest(geometry, calibration, _settings(header, geometry))
 
 
+def check_scaled(geometry: FilmGeometry, scale: float, limits: Limits) -> None:
+    """Holds the frames to the limit at the model's scale too.
+
+    Raises:
+        ResourceLimitError: they are larger than the server takes.
+    """
+    if geometry.width * geometry.height * scale**2 > limits.max_frame_pixels:
+        raise ResourceLimitError(
+            f"a frame of {geometry.width} x {geometry.height} pixels, enlarged {scale:.3g} times to the model's scale, "
+            f"has more than the {limits.max_frame_pixels} pixels the server takes; crop it, or check its pixel size"
+        )
+
+
 def _geometry(header: pb.FilmHeader, limits: Limits) -> FilmGeometry:
     for name in ("width", "height", "frame_count"):
         value = getattr(header, name)

@@ -18,9 +18,9 @@ from memtrack.calls import FilmCall
 from memtrack.config import Limits
 from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, ResourceLimitError, ShutdownError
-from memtrack.headers import read_header
+from memtrack.headers import check_scaled, read_header
 from memtrack.models import load_model
-from memtrack.pipeline import detect_film
+from memtrack.pipeline import detect_film, model_scale
 from memtrack.progress import ProgressClock, Stage, StageCosts
 from memtrack.receiving import FrameReceiver
 from memtrack.spool import SpooledFilm, SpoolFolder
@@ -105,6 +105,7 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
         # A missing computing library is said before the film is sent.
         model.engine(request.settings.engine)
         with self._spool.open(request.geometry, request.calibration) as film:
+            check_scaled(film.geometry, model_scale(film, model, request.settings), self._limits)
             call.send(messages.accepted(request, model, film))
             progress = _Progress(call, film, self._costs)
             film_sha256 = _receive(call, requests, film, progress)

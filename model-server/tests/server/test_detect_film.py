@@ -161,6 +161,19 @@ def test_a_stream_that_does_not_add_up_is_refused(server: RunningServer) -> None
     eventually(lambda: server.spools() == 0, "the spools are gone")
 
 
+def test_a_pixel_size_that_cannot_be_is_refused_before_the_film_is_sent(server: RunningServer) -> None:
+    head = pb.DetectFilmRequest(header=header(noise(3, 20, 30), pixel_size_um=352.8))
+    status, sentence = refusal(server, [head])
+    assert status is grpc.StatusCode.INVALID_ARGUMENT
+    assert sentence.startswith("a pixel size of 352.8 um means scaling the frames by 670")
+    large = pb.FilmHeader(
+        protocol=1, width=8000, height=4000, frame_count=1, pixel_type="PIXEL_TYPE_UINT8", pixel_size_um=1.5
+    )
+    status, sentence = refusal(server, [pb.DetectFilmRequest(header=large)])
+    assert status is grpc.StatusCode.RESOURCE_EXHAUSTED
+    assert "a frame of 8000 x 4000 pixels, enlarged 2.85 times" in sentence
+
+
 def test_a_chunk_of_one_mebibyte_is_taken_and_one_byte_more_is_not(server: RunningServer) -> None:
     limit = 1 << 20
     row = np.zeros((1, 1, limit + 1), np.uint8)

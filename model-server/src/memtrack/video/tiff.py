@@ -23,7 +23,7 @@ from memtrack.film import Calibration
 from memtrack.video.source import Source, notes_on, red_first
 
 _MICROMETRES = {"um": 1.0, "µm": 1.0, "μm": 1.0, "micron": 1.0, "microns": 1.0, "micrometer": 1.0, "nm": 1e-3,
-                "mm": 1e3, "cm": 1e4, "m": 1e6, "inch": 25400.0}  # fmt: skip
+                "mm": 1e3, "cm": 1e4, "m": 1e6}  # fmt: skip
 _SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0, "h": 3600.0}
 _AXIS_WORDS = {"T": "time points", "Z": "slices", "C": "channels"}
 
