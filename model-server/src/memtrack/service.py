@@ -52,9 +52,7 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
         call = FilmCall(self._limits.idle_seconds)
         try:
             self._open(call)
-            if not context.add_callback(call.cancel):
-                return
-            threading.Thread(target=self._work, args=(call, request_iterator), name="film", daemon=True).start()
+            self._start(call, request_iterator, context)
             yield from call.responses()
         except CancelledError:
             return
@@ -80,6 +78,16 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
                     f"the model server has {len(self._calls)} film(s) already, its limit; wait until one is done"
                 )
             self._calls.add(call)
+
+    def _start(self, call: FilmCall, requests: Iterator[pb.DetectFilmRequest], context: grpc.ServicerContext) -> None:
+        """Starts the film's thread, which forgets the call at its end; without one the call is forgotten here."""
+        try:
+            if not context.add_callback(call.cancel):
+                raise CancelledError("the film was cancelled")
+            threading.Thread(target=self._work, args=(call, requests), name="film", daemon=True).start()
+        except BaseException:
+            self._forget(call)
+            raise
 
     def _work(self, call: FilmCall, requests: Iterator[pb.DetectFilmRequest]) -> None:
         """The life of one film; all it holds is given back before the client hears the end."""
