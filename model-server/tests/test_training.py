@@ -28,6 +28,7 @@ torch = pytest.importorskip("torch")
 from memtrack.retinanet import OUTPUTS, build  # noqa: E402
 from memtrack.training.batches import Batches  # noqa: E402
 from memtrack.training.loss import LossSettings, detection_loss, targets  # noqa: E402
+from memtrack.training.recipe import train  # noqa: E402
 from memtrack.training.train import Workspace, new_net, optimise  # noqa: E402
 
 RECIPES = Path(__file__).parents[1] / "recipes"
@@ -259,6 +260,7 @@ checkpoint_every = 4
     model = load_model("mine")
     assert model.card.training["config"]["annotated"][1]["role"] == "validation"
     features = np.full((len(MOTION.channels), 32, 48), NEUTRAL, np.uint8)
+    assert not (tmp_path / "mine.work" / "checkpoint.pt").exists()
     assert model.engine("openvino").run(features).shape == (OUTPUTS, 8, 12)
     assert (tmp_path / "mine.work" / "loss.svg").read_text(encoding="utf-8").startswith("<svg")
     # A model of the registry can be the start of another, if features and net are the same.
@@ -274,23 +276,46 @@ checkpoint_every = 4
     assert "mine 1" in capsys.readouterr().out
 
 
-def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:
+def small_training() -> tuple[TrainingConfig, list[FilmSamples]]:
+    """A training of a few seconds' work that leaves a checkpoint of iteration 3."""
     films = [samples([[20, 37, 0, 0], [40, 12, 2, 0]])]
     channels = len(MOTION.channels)
     films = [replace(films[0], features=np.repeat(films[0].features, 5, axis=1)[:, :channels])]
     model = ModelSettings("a", widths=(4, 4, 4, 4), depths=(1, 1, 1))
     steps = Optimisation(iterations=6, batch=2, crop=48, warm_up=2, checkpoint_every=3, bfloat16=False)
-    config = TrainingConfig(model, (SimulatedSet("water", 1, 1),), (SimulatedSet("water", 1, 2),), optimisation=steps)
-    weights = []
-    for folder, first in (("whole", 6), ("broken", 3)):
-        workspace = Workspace(tmp_path / folder)
-        workspace.folder.mkdir()
-        net = optimise(
-            replace(config, optimisation=replace(steps, iterations=6)), films, workspace, "cpu", lambda s: None
-        )
-        if first == 3:  # its checkpoint is of iteration 3
-            assert (workspace.folder / "checkpoint.pt").is_file()
-            net = optimise(config, films, workspace, "cpu", lambda s: None)
-        weights.append(net.state_dict())
-    for name, value in weights[0].items():
-        torch.testing.assert_close(value, weights[1][name])
+    simulated = (SimulatedSet("water", 1, 1),), (SimulatedSet("water", 1, 2),)
+    return TrainingConfig(model, *simulated, optimisation=steps), films
+
+
+def silent(line: str) -> None:
+    pass
+
+
+def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    whole = optimise(config, films, workspace, "cpu", silent).state_dict()
+    assert workspace.checkpoint.is_file()
+    resumed = optimise(config, films, workspace, "cpu", silent).state_dict()
+    assert set(whole) == set(resumed)
+    for name, value in whole.items():
+        torch.testing.assert_close(value, resumed[name])
+
+
+def test_a_checkpoint_of_another_recipe_is_refused_before_films_are_made(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    optimise(config, films, workspace, "cpu", silent)
+    other = replace(config, training=(SimulatedSet("water", 2, 1),))
+    with pytest.raises(SettingsError, match=r"checkpoint\.pt is of a training by another recipe; delete it, or give"):
+        train(other, workspace, tmp_path, base=tmp_path, device="cpu", workers=1, report=silent)
+    assert not workspace.samples.exists()
+
+
+def test_a_training_from_the_start_begins_its_curve_anew(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    for _ in range(2):
+        optimise(config, films, workspace, "cpu", silent)
+        workspace.checkpoint.unlink()
+    assert len((tmp_path / "loss.csv").read_text(encoding="utf-8").splitlines()) == 2

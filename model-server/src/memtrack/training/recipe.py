@@ -23,7 +23,7 @@ from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
 from memtrack.training.films import annotated_samples, simulated_samples
 from memtrack.training.samples import FilmSamples
-from memtrack.training.train import Report, Workspace, architecture, optimise
+from memtrack.training.train import Report, Workspace, architecture, optimise, read_checkpoint
 
 CALIBRATION_FRAMES = 64
 
@@ -41,10 +41,14 @@ def train(
     """Runs `config` to the end and registers the model as a new version under `root` (the user's models by default).
 
     `base` is the folder to which the paths of annotated films are relative. The workspace keeps samples, checkpoint,
-    loss curve and precision-recall curves.
+    loss curve and precision-recall curves; the checkpoint of a finished training is deleted.
+
+    Raises:
+        SettingsError: the workspace holds the checkpoint of a training by another recipe.
     """
     started = time.monotonic()
     workspace.folder.mkdir(parents=True, exist_ok=True)
+    read_checkpoint(config, workspace)  # refused before the films are made
     spec = SPECS[config.model.features]
 
     def films(done: int, total: int) -> None:
@@ -61,7 +65,9 @@ def train(
     training, validation = parts
     net = optimise(config, training, workspace, device, report)
     minutes = (time.monotonic() - started) / 60
-    return finish(config, net, training, validation, workspace, root, minutes=minutes, report=report)
+    model = finish(config, net, training, validation, workspace, root, minutes=minutes, report=report)
+    workspace.checkpoint.unlink(missing_ok=True)
+    return model
 
 
 def finish(

@@ -4,17 +4,21 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
+import hashlib
+import json
 import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
 from torch import nn
 
-from memtrack.errors import ModelNotFoundError
+from memtrack.errors import ModelNotFoundError, SettingsError
 from memtrack.models import load_model
 from memtrack.motion import SPECS
 from memtrack.retinanet import STRIDE, Net, build
@@ -25,7 +29,6 @@ from memtrack.training.loss import detection_loss
 from memtrack.training.samples import FilmSamples
 
 Report = Callable[[str], None]
-CHECKPOINT = "checkpoint.pt"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +41,11 @@ class Workspace:
     def samples(self) -> Path:
         """Where samples of simulated films are kept."""
         return self.folder / "samples"
+
+    @property
+    def checkpoint(self) -> Path:
+        """Where an unfinished training stands."""
+        return self.folder / "checkpoint.pt"
 
 
 def architecture(model: ModelSettings) -> dict[str, object]:
@@ -67,7 +75,11 @@ def new_net(model: ModelSettings) -> Net:
 def optimise(
     config: TrainingConfig, films: list[FilmSamples], workspace: Workspace, device: str, report: Report
 ) -> nn.Module:
-    """Trains the net; goes on from the workspace's checkpoint if there is one. Returns the averaged net."""
+    """Trains the net; goes on from the workspace's checkpoint if there is one. Returns the averaged net.
+
+    Raises:
+        SettingsError: the checkpoint is of another recipe.
+    """
     settings = config.optimisation
     torch.manual_seed(settings.seed)
     net = new_net(config.model).to(device).to(memory_format=torch.channels_last)
@@ -85,7 +97,9 @@ def optimise(
         stride=STRIDE,
         loss=config.loss,
     )
-    first = _resume(workspace, net, average, optimiser, batches)
+    first = _resume(read_checkpoint(config, workspace), net, average, optimiser, batches)
+    if first == 0:
+        (workspace.folder / LOSSES).unlink(missing_ok=True)
     losses: list[float] = []
     started = time.monotonic()
     for iteration in range(first, settings.iterations):
@@ -112,7 +126,7 @@ def optimise(
             _append(workspace.folder / LOSSES, done, float(np.mean(losses)), rate)
             losses.clear()
         if done % settings.checkpoint_every == 0 and done < settings.iterations:
-            _save(workspace, done, net, average, optimiser, batches)
+            _save(workspace, config, done, net, average, optimiser, batches)
     trained: nn.Module = average.module
     return trained
 
@@ -125,8 +139,30 @@ def schedule(iteration: int, settings: Optimisation) -> float:
     return float(0.01 + 0.99 * 0.5 * (1 + np.cos(np.pi * through)))
 
 
+def read_checkpoint(config: TrainingConfig, workspace: Workspace) -> dict[str, Any] | None:
+    """Where an interrupted training by this recipe stands; None where there was none.
+
+    Raises:
+        SettingsError: the workspace is another training's.
+    """
+    if not workspace.checkpoint.is_file():
+        return None
+    state: dict[str, Any] = torch.load(workspace.checkpoint, map_location="cpu", weights_only=True)
+    if state.get("recipe") != _digest(config):
+        raise SettingsError(
+            f"{workspace.checkpoint} is of a training by another recipe; delete it, or give another --workspace"
+        )
+    return state
+
+
+def _digest(config: TrainingConfig) -> str:
+    """SHA-256 of the whole recipe, which states also how many films there are."""
+    return hashlib.sha256(json.dumps(dataclasses.asdict(config)).encode()).hexdigest()
+
+
 def _save(
     workspace: Workspace,
+    config: TrainingConfig,
     done: int,
     net: nn.Module,
     average: nn.Module,
@@ -134,24 +170,27 @@ def _save(
     batches: Batches,
 ) -> None:
     state = {
+        "recipe": _digest(config),
         "done": done,
         "net": net.state_dict(),
         "average": average.state_dict(),
         "optimiser": optimiser.state_dict(),
         "difficulty": torch.from_numpy(batches.difficulty),
     }
-    partial = workspace.folder / f"{CHECKPOINT}.part"
+    partial = workspace.checkpoint.with_suffix(".part")
     torch.save(state, partial)
-    os.replace(partial, workspace.folder / CHECKPOINT)
+    os.replace(partial, workspace.checkpoint)
 
 
 def _resume(
-    workspace: Workspace, net: nn.Module, average: nn.Module, optimiser: torch.optim.Optimizer, batches: Batches
+    state: dict[str, Any] | None,
+    net: nn.Module,
+    average: nn.Module,
+    optimiser: torch.optim.Optimizer,
+    batches: Batches,
 ) -> int:
-    path = workspace.folder / CHECKPOINT
-    if not path.is_file():
+    if state is None:
         return 0
-    state = torch.load(path, weights_only=True)
     net.load_state_dict(state["net"])
     average.load_state_dict(state["average"])
     optimiser.load_state_dict(state["optimiser"])
