@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import argparse
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from memtrack.channels import NEUTRAL
 from memtrack.cli import models as models_command
 from memtrack.cli import train as command
 from memtrack.engines import TorchEngine
-from memtrack.errors import ModelNotFoundError, SettingsError
+from memtrack.errors import EngineUnavailableError, ModelNotFoundError, SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
 from memtrack.motion import MOTION, FeatureSpec
@@ -209,6 +210,17 @@ def arguments(module: object, *words: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     module.add_arguments(parser)  # type: ignore[attr-defined]
     return parser.parse_args(words)
+
+
+@pytest.mark.parametrize("missing", ["torch", "nncf"])
+def test_what_training_needs_is_asked_for_before_the_recipe_is_read(
+    missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "nncf", None if missing == "nncf" else sys)
+    if missing == "torch":
+        monkeypatch.setitem(sys.modules, "torch", None)
+    with pytest.raises(EngineUnavailableError, match=rf'{missing} cannot be loaded .* pip install "memtrack\[train\]"'):
+        command.run(arguments(command, str(tmp_path / "missing.toml")))
 
 
 @pytest.mark.filterwarnings("ignore")  # of torch's tracing and of nncf, which are not ours to mend

@@ -28,12 +28,16 @@ def run(args: argparse.Namespace) -> int:
 
     Raises:
         SettingsError: the recipe cannot be used.
-        EngineUnavailableError: PyTorch is not installed.
+        EngineUnavailableError: PyTorch or nncf is not installed.
     """
     try:
+        import nncf  # noqa: F401  # used at the end of hours of work
         import torch
     except ImportError as error:
-        raise EngineUnavailableError("training needs PyTorch: install it with 'pip install memtrack[torch]'") from error
+        raise EngineUnavailableError(
+            f"training needs PyTorch and nncf, and {error.name or 'one of them'} cannot be loaded ({error}); "
+            'install both with pip install "memtrack[train]"'
+        ) from error
     import cv2
 
     from memtrack.training.config import read_config
