@@ -151,9 +151,9 @@ def load_model(name: str = "default", version: str | None = None) -> Model:
         ModelNotFoundError: there is none.
         ModelCorruptError: a file differs from what its card states.
     """
-    _check_name(name)
+    check_name(name)
     if version is not None:
-        _check_name(version)
+        check_name(version)
     folders = [f for root in _roots() for f in _versions(root, name) if version in (None, f.name)]
     if not folders:
         known = ", ".join(f"{c.name} {c.version}" for c in list_models()) or "none"
@@ -176,7 +176,7 @@ def register(card: ModelCard, files: Mapping[str, Path], root: Path | None = Non
     The card's `version` and `files` are set here: the next whole number, and each file's SHA-256.
     """
     root = user_models() if root is None else root
-    _check_name(card.name)
+    check_name(card.name)
     home = root / card.name
     home.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=root, prefix=".new-") as temporary:
@@ -201,7 +201,8 @@ def _versions(root: Path, name: str) -> Iterator[Path]:
             yield card.parent
 
 
-def _check_name(name: str) -> None:
+def check_name(name: str) -> None:
+    """Raises SettingsError where `name` cannot be that of a model, or its version."""
     if not NAME.fullmatch(name) or set(name) == {"."}:
         raise SettingsError(f"{name!r} is no model name or version: use 1 to 64 of a-z, 0-9, '_', '.', '-'")
 

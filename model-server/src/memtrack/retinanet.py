@@ -16,6 +16,7 @@ from torch import Tensor, nn
 
 from memtrack.errors import SettingsError
 
+ARCHITECTURES = ("compact", "resnet50_fpn")
 ALIGNMENT = 16
 STRIDE = 4
 LEVELS = 3
@@ -121,4 +122,4 @@ def build(architecture: Mapping[str, Any], channels: int) -> Net:
         case "resnet50_fpn":
             return ResNet50Fpn(channels)
         case other:
-            raise SettingsError(f"architecture {other!r} is unknown: use 'compact' or 'resnet50_fpn'")
+            raise SettingsError(f"architecture {other!r} is unknown: use one of {', '.join(ARCHITECTURES)}")

@@ -5,12 +5,17 @@ from __future__ import annotations
 
 import dataclasses
 import tomllib
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+from memtrack.detector import ALIGNMENT
 from memtrack.errors import SettingsError
+from memtrack.models import check_name
 from memtrack.motion import SPECS
+from memtrack.retinanet import ARCHITECTURES
+from memtrack.simulation.families import FAMILIES
 from memtrack.training.films import Annotated, SimulatedSet
 from memtrack.training.loss import LossSettings
 
@@ -28,13 +33,19 @@ class ModelSettings:
     description: str = ""
     licence: str = "GPL-3.0-or-later"
     architecture: str = "compact"
-    widths: tuple[int, ...] = (16, 32, 48, 64)
-    depths: tuple[int, ...] = (1, 2, 1)
+    widths: tuple[int, int, int, int] = (16, 32, 48, 64)
+    depths: tuple[int, int, int] = (1, 2, 1)
     features: str = "motion"
     cell_length_px: tuple[float, float] = (4.0, 11.0)
     box_size_px: float = 30.0
     start_from: str = ""
     """'name' or 'name version' of a model of the registry whose weights are the start (fine-tuning)."""
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        low, high = self.cell_length_px
+        if low > high:
+            raise SettingsError(f"cell_length_px is {low:g} to {high:g}, give the smaller length first")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +65,10 @@ class Optimisation:
     seed: int = 1
     bfloat16: bool = True
 
+    def __post_init__(self) -> None:
+        if self.crop % ALIGNMENT:
+            raise SettingsError(f"crop is {self.crop}, use a multiple of {ALIGNMENT}")
+
 
 @dataclass(frozen=True, slots=True)
 class TrainingConfig:
@@ -67,11 +82,7 @@ class TrainingConfig:
     optimisation: Optimisation = field(default_factory=Optimisation)
 
     def __post_init__(self) -> None:
-        if self.model.features not in SPECS:
-            raise SettingsError(f"features {self.model.features!r} are unknown: use one of {', '.join(SPECS)}")
         roles = {a.role for a in self.annotated}
-        if not roles <= {"training", "validation"}:
-            raise SettingsError(f"roles {sorted(roles)} of annotated films: use 'training' or 'validation'")
         if not (self.training or "training" in roles) or not (self.validation or "validation" in roles):
             raise SettingsError("a training needs at least one film for training and one for validation")
 
@@ -80,7 +91,8 @@ def read_config(path: Path) -> TrainingConfig:
     """The recipe in `path`.
 
     Raises:
-        SettingsError: the file cannot be read, or a key is unknown, missing or of the wrong type; the message names it.
+        SettingsError: the file cannot be read, or a key is unknown, missing, of the wrong type or out of range; the
+            message names it.
     """
     try:
         values = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -105,23 +117,63 @@ def read_config(path: Path) -> TrainingConfig:
 
 
 def _make(kind: type[T], values: dict[str, Any], where: str) -> T:
-    fields = {f.name: f for f in dataclasses.fields(kind)}  # type: ignore[arg-type]
+    fields = {f.name: str(f.type) for f in dataclasses.fields(kind)}  # type: ignore[arg-type]
     for key, value in values.items():
         if key not in fields:
             raise SettingsError(f"{where}: unknown key {key!r}: use {', '.join(fields)}")
-        expected = str(fields[key].type).split("[")[0]
-        if not isinstance(value, _TYPES[expected]) or (isinstance(value, bool) and expected != "bool"):
-            raise SettingsError(f"{where}: {key} is {value!r}, expected {fields[key].type}")
+        if not _fits(value, fields[key]):
+            raise SettingsError(f"{where}: {key} is {value!r}, expected {fields[key]}")
+        if key in _RANGES[kind]:
+            low, high = _RANGES[kind][key]
+            if not all(low <= number <= high for number in (value if isinstance(value, list) else [value])):
+                raise SettingsError(f"{where}: {key} is {value!r}, use {low:g} to {high:g}")
+        if key in _CHOICES and value not in _CHOICES[key]:
+            raise SettingsError(f"{where}: {key} is {value!r}, use one of {', '.join(_CHOICES[key])}")
     try:
         return kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in values.items()})
-    except TypeError as error:
+    except (TypeError, SettingsError) as error:
         raise SettingsError(f"{where}: {error}") from error
 
 
-_TYPES: dict[str, type | tuple[type, ...]] = {
-    "str": str,
-    "int": int,
-    "float": (int, float),
-    "bool": bool,
-    "tuple": list,
+def _fits(value: object, expected: str) -> bool:
+    """Whether a value of a TOML file is of the type a field is declared with."""
+    if expected.startswith("tuple["):
+        parts = expected.removeprefix("tuple[").removesuffix("]").split(", ")
+        return isinstance(value, list) and len(value) == len(parts) and all(map(_fits, value, parts))
+    return isinstance(value, _TYPES[expected]) and (expected == "bool" or not isinstance(value, bool))
+
+
+_TYPES: dict[str, type | tuple[type, ...]] = {"str": str, "int": int, "float": (int, float), "bool": bool}
+_CHOICES: dict[str, Collection[str]] = {
+    "architecture": ARCHITECTURES,
+    "features": SPECS,
+    "family": FAMILIES,
+    "role": ("training", "validation"),
 }
+_RANGES: dict[type, dict[str, tuple[float, float]]] = {
+    ModelSettings: {"widths": (1, 4096), "depths": (0, 64), "cell_length_px": (1, 200), "box_size_px": (1, 1000)},
+    Optimisation: {
+        "iterations": (1, 1e8),
+        "batch": (1, 4096),
+        "crop": (16, 4096),
+        "learning_rate": (1e-9, 10),
+        "weight_decay": (0, 1),
+        "warm_up": (0, 1e8),
+        "clip": (1e-9, 1e9),
+        "average": (0, 0.999999),
+        "checkpoint_every": (1, 1e8),
+        "seed": (0, 1e9),
+    },
+    LossSettings: {
+        "positive_px": (0, 1000),
+        "ring_px": (0, 1000),
+        "ignored_px": (0, 1000),
+        "gamma": (0, 10),
+        "alpha": (0, 1),
+        "level_weight": (0, 1e6),
+        "centre_weight": (0, 1e6),
+    },
+    SimulatedSet: {"count": (1, 1e6), "seed": (0, 1e9), "size": (32, 8192), "frames": (1, 20000)},
+    Annotated: {"pixel_size_um": (0, 1000), "frame_interval_seconds": (0, 1e5), "frames": (1, 1e6)},
+}
+"""Least and greatest value of numbers, and of each number of a list."""

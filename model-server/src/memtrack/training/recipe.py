@@ -23,7 +23,7 @@ from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
 from memtrack.training.films import annotated_samples, simulated_samples
 from memtrack.training.samples import FilmSamples
-from memtrack.training.train import Report, Workspace, architecture, optimise, read_checkpoint
+from memtrack.training.train import Report, Workspace, architecture, new_net, optimise, read_checkpoint
 
 CALIBRATION_FRAMES = 64
 
@@ -45,10 +45,13 @@ def train(
 
     Raises:
         SettingsError: the workspace holds the checkpoint of a training by another recipe.
+        ModelNotFoundError: the model to start from is missing, or has another net.
     """
     started = time.monotonic()
     workspace.folder.mkdir(parents=True, exist_ok=True)
-    read_checkpoint(config, workspace)  # refused before the films are made
+    # What cannot be used is refused before the films are made.
+    read_checkpoint(config, workspace)
+    new_net(config.model)
     spec = SPECS[config.model.features]
 
     def films(done: int, total: int) -> None:
