@@ -67,11 +67,35 @@ def test_a_file_outside_the_models_folder_is_refused(registry: Path, tmp_path: P
         load_model("mine")
 
 
-@pytest.mark.parametrize("change", [{"levels": None}, {"extra": 1}, {"thresholds": {"max_f1": [1]}}])
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"levels": None},
+        {"extra": 1},
+        {"thresholds": {"max_f1": [1]}},
+        {"thresholds": []},
+        {"thresholds": {"max_precision": [0.5, 0.5], "max_f1": [0.5, 0.5]}, "levels": ["low", "high"]},
+        {"architecture": None},
+        {"name": 5},
+    ],
+)
 def test_a_card_that_is_not_one_is_refused(change: dict[str, object]) -> None:
     values = json.loads(card().to_json()) | change
     with pytest.raises(ModelCorruptError):
         ModelCard.from_json(json.dumps(values))
+
+
+def test_a_card_that_is_not_utf_8_is_refused_and_left_out_of_the_list(registry: Path, tmp_path: Path) -> None:
+    model = registered(tmp_path)
+    registered(tmp_path, "other")
+    (model.folder / CARD).write_bytes("Modèle".encode("latin-1"))
+    with pytest.raises(
+        ModelCorruptError, match=r"the model card .*model\.json cannot be read .*: install the model again"
+    ):
+        load_model("mine")
+    names = {c.name for c in list_models()}
+    assert "other" in names
+    assert "mine" not in names
 
 
 @pytest.mark.parametrize("name", ["", "..", "a/b", "A", "x" * 65, "../mine", "mine\\1"])

@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from memtrack.detections import Level
 from memtrack.detector import Decoder, Engine
 from memtrack.engines import OpenVinoEngine, TorchEngine
 from memtrack.errors import EngineUnavailableError, ModelCorruptError, ModelNotFoundError, SettingsError
@@ -74,10 +75,13 @@ class ModelCard:
             low, high = values["cell_length_px"]
             values["cell_length_px"] = (float(low), float(high))
             values["thresholds"] = {k: tuple(float(t) for t in v) for k, v in values["thresholds"].items()}
+            values["architecture"] = dict(values["architecture"])
+            check_name(values["name"])
+            check_name(values["version"])
             card = ModelCard(**values)
-        except (ValueError, TypeError, KeyError, SettingsError) as error:
+        except (ValueError, TypeError, KeyError, AttributeError, SettingsError) as error:
             raise ModelCorruptError(f"a model card cannot be read ({error}): install the model again") from error
-        if any(len(t) != len(card.levels) for t in card.thresholds.values()) or set(card.thresholds) != set(CRITERIA):
+        if any(len(t) != len(Level) for t in card.thresholds.values()) or set(card.thresholds) != set(CRITERIA):
             raise ModelCorruptError(f"the card of model {card.name} lacks thresholds: install the model again")
         return card
 
@@ -139,7 +143,7 @@ def list_models() -> list[ModelCard]:
     for root in _roots():
         for path in sorted(root.glob(f"*/*/{CARD}")):
             with contextlib.suppress(ModelCorruptError):
-                cards.append(ModelCard.from_json(path.read_text(encoding="utf-8")))
+                cards.append(_read_card(path))
     newest_first = sorted(cards, key=lambda c: _order(c.version), reverse=True)
     return sorted(newest_first, key=lambda c: c.name)
 
@@ -160,7 +164,7 @@ def load_model(name: str = "default", version: str | None = None) -> Model:
         wanted = name if version is None else f"{name} {version}"
         raise ModelNotFoundError(f"there is no model {wanted}; the registry has: {known}")
     folder = max(folders, key=lambda f: _order(f.name))
-    card = ModelCard.from_json((folder / CARD).read_text(encoding="utf-8"))
+    card = _read_card(folder / CARD)
     for file, expected in card.files.items():
         path = folder / file
         if path.name != file or not path.is_file() or _sha256(path) != expected:
@@ -191,6 +195,13 @@ def register(card: ModelCard, files: Mapping[str, Path], root: Path | None = Non
         (new / CARD).write_text(final.to_json(), encoding="utf-8", newline="\n")
         os.rename(new, home / version)
     return Model(final, home / version)
+
+
+def _read_card(path: Path) -> ModelCard:
+    try:
+        return ModelCard.from_json(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise ModelCorruptError(f"the model card {path} cannot be read ({error}): install the model again") from error
 
 
 def _versions(root: Path, name: str) -> Iterator[Path]:

@@ -3,18 +3,21 @@
 
 from __future__ import annotations
 
+import logging
 import platform
 
 import grpc
 
 from memtrack import __version__, messages
 from memtrack.config import PROTOCOL, Limits
+from memtrack.errors import MemtrackError
 from memtrack.libraries import library_versions, working_devices
 from memtrack.models import list_models, load_model
 from memtrack.spool import SpoolFolder
-from memtrack.status import status_of
 from memtrack.v1 import server_pb2 as pb
 from memtrack.v1 import server_pb2_grpc
+
+_log = logging.getLogger(__name__)
 
 
 class ServerService(server_pb2_grpc.ServerServiceServicer):
@@ -40,11 +43,10 @@ class ServerService(server_pb2_grpc.ServerServiceServicer):
 
     def ListModels(self, request: pb.ListModelsRequest, context: grpc.ServicerContext) -> pb.ListModelsResponse:
         """The registry's models; those whose files are damaged are left out, since they cannot be used."""
-        try:
-            cards = list_models()
-            return pb.ListModelsResponse(
-                models=[messages.card(card, load_model(card.name, card.version).digest) for card in cards]
-            )
-        except Exception as error:
-            context.abort(*status_of(error))
-            raise
+        models = []
+        for card in list_models():
+            try:
+                models.append(messages.card(card, load_model(card.name, card.version).digest))
+            except (MemtrackError, OSError) as error:
+                _log.warning("a model is left out: %s", error)
+        return pb.ListModelsResponse(models=models)

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import socket
 import subprocess
 import sys
@@ -16,6 +18,7 @@ import trustme
 from grpc_health.v1 import health_pb2, health_pb2_grpc
 
 from memtrack import __version__
+from memtrack.models import CARD, WEIGHTS, load_model
 from memtrack.v1 import server_pb2, server_pb2_grpc
 from server.running import TOKEN, RunningServer
 
@@ -77,6 +80,19 @@ def test_the_models_are_listed_with_their_cards(server: RunningServer) -> None:
     assert default.min_cell_length_px <= default.max_cell_length_px
     for thresholds in (default.max_precision, default.max_f1):
         assert all(0 < value < 1 for value in (thresholds.low, thresholds.medium, thresholds.high))
+
+
+def test_a_damaged_model_is_left_out_of_the_list(spool_folder: Path, tmp_path: Path) -> None:
+    for name in ("good", "damaged"):
+        shutil.copytree(load_model().folder, tmp_path / "models" / name / "1")
+        card = tmp_path / "models" / name / "1" / CARD
+        values = json.loads(card.read_text(encoding="utf-8")) | {"name": name, "version": "1"}
+        card.write_text(json.dumps(values), encoding="utf-8")
+    (tmp_path / "models/damaged/1" / WEIGHTS).write_bytes(b"damaged")
+    with RunningServer(spool_folder, environment={"MEMTRACK_MODELS": str(tmp_path / "models")}) as server:
+        models = server.server.ListModels(server_pb2.ListModelsRequest(), metadata=server.metadata).models
+        assert {"good", "default"} == {model.name for model in models}
+        assert "left out: weights.safetensors of model damaged 1 is missing or damaged" in server.log
 
 
 def _refusal(*options: str, line: str = "") -> str:
