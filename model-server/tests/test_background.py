@@ -66,7 +66,23 @@ def test_strips_give_the_same_as_one_piece(monkeypatch: pytest.MonkeyPatch) -> N
     frames = np.random.default_rng(4).integers(0, 255, (7, 23, 11), np.uint8)
     whole = background_of(frames)
     monkeypatch.setattr("memtrack.background.STRIP_BYTES", 7 * 11 * 2 * 5)
+    monkeypatch.setattr("memtrack.background.STRIP_BYTES_PER_PIXEL", 1)
     np.testing.assert_array_equal(background_of(frames).median, whole.median)
+
+
+def test_a_frame_is_read_as_often_whatever_its_size(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("memtrack.background.STRIP_BYTES", 1)
+    read: list[int] = []
+
+    class Counted(ArrayFilm):
+        def frame(self, index: int) -> np.ndarray:
+            read.append(index)
+            return super().frame(index)
+
+    for size in (48, 480):
+        read.clear()
+        temporal_background(Counted(np.zeros((96, size, size), np.uint8)), still(96), report=lambda done, total: None)
+        assert {read.count(i) for i in range(1, 96)} == {3}
 
 
 def test_highlights_in_which_the_camera_saturates_stand_still_while_the_lamp_drifts() -> None:

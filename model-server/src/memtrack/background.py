@@ -17,7 +17,9 @@ Progress = Callable[[int, int], None]
 
 SAMPLES = 96
 """Frames the median is taken of; more than this changes it by less than a tenth of the noise."""
-STRIP_BYTES = 24 << 20
+STRIP_BYTES, STRIP_BYTES_PER_PIXEL = 24 << 20, 64
+"""What the samples of a strip may take, or for each pixel of a larger frame; the features take three times as much.
+Each strip reads and aligns all samples anew, so a larger frame has larger strips, not more."""
 MISSING = 65535
 
 
@@ -69,7 +71,8 @@ def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, fra
     canvas_w, canvas_h = max(xs) - origin[0] + w, max(ys) - origin[1] + h
     low, high = _grey_range(film, motion, chosen)
     scale = (MISSING - 5) / (high - low)
-    rows = int(np.clip(STRIP_BYTES // (2 * len(chosen) * canvas_w), 1, canvas_h))
+    budget = max(STRIP_BYTES, STRIP_BYTES_PER_PIXEL * canvas_h * canvas_w)
+    rows = int(np.clip(budget // (2 * len(chosen) * canvas_w), 1, canvas_h))
     starts = range(0, canvas_h, rows)
     median = np.empty((canvas_h, canvas_w), np.float32)
     spread = np.empty((canvas_h, canvas_w), np.float32)
