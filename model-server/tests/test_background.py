@@ -62,6 +62,27 @@ def test_sixteen_bit_and_float_films_keep_their_range() -> None:
         assert np.abs(background_of(frames).median - exact).max() < 3e-4 * float(np.ptp(frames))
 
 
+@pytest.mark.parametrize("dtype", ["uint16", "float32"])
+@pytest.mark.parametrize("always", [True, False], ids=["in every frame", "in one frame"])
+def test_an_outlier_takes_nothing_from_the_rest(dtype: str, always: bool) -> None:
+    frames = np.random.default_rng(3).normal(120, 2, (31, 20, 24))
+    frames[slice(None) if always else 0, 7, 5] = 6e4 if dtype == "uint16" else 1e8
+    film = frames.astype(dtype)
+    made = background_of(film)
+    np.testing.assert_allclose(made.median, np.median(film, axis=0), rtol=1e-6)
+    low, high = np.percentile(film, [15.87, 84.13], axis=0)
+    np.testing.assert_allclose(made.spread, (high - low) / 2, atol=0.01)
+
+
+def test_places_that_no_frame_shows_are_as_bright_as_the_film() -> None:
+    frames = np.random.default_rng(0).normal(30_000, 200, (5, 10, 12)).astype(np.uint16)
+    drift = np.stack([2.0 * np.arange(5), 2.0 * np.arange(5)], axis=1)
+    made = background_of(frames, FilmMotion(drift, np.ones(5)))
+    assert made.median.shape == (18, 20)
+    assert (made.spread[:2, 18:] == 0).all()
+    assert np.abs(made.median - 30_000).max() < 1000
+
+
 def test_strips_give_the_same_as_one_piece(monkeypatch: pytest.MonkeyPatch) -> None:
     frames = np.random.default_rng(4).integers(0, 255, (7, 23, 11), np.uint8)
     whole = background_of(frames)

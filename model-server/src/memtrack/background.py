@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float32, Float64, UInt16
@@ -20,7 +21,9 @@ SAMPLES = 96
 STRIP_BYTES, STRIP_BYTES_PER_PIXEL = 24 << 20, 64
 """What the samples of a strip may take, or for each pixel of a larger frame; the features take three times as much.
 Each strip reads and aligns all samples anew, so a larger frame has larger strips, not more."""
-MISSING = 65535
+LOWEST, HIGHEST = -64.0, 448.0
+"""Grey levels of 8-bit films with room for a lamp's correction and the overshoot of resampling; they sort quicker in 16
+bits. Other films are sorted as they are, since one outlier would set the range for all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,24 +72,28 @@ def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, fra
     xs, ys = [-x for x, _ in places.values()], [-y for _, y in places.values()]
     origin = (min(xs), min(ys))
     canvas_w, canvas_h = max(xs) - origin[0] + w, max(ys) - origin[1] + h
-    low, high = _grey_range(film, motion, chosen)
-    scale = (MISSING - 5) / (high - low)
+    first = film.frame(int(chosen[0]))
+    packed = first.dtype == np.uint8
+    dtype = np.dtype(np.uint16 if packed else np.float32)
+    # Places that no frame shows get `low`.
+    low, scale = (LOWEST, 65530 / (HIGHEST - LOWEST)) if packed else (float(np.median(first)), 1.0)
     budget = max(STRIP_BYTES, STRIP_BYTES_PER_PIXEL * canvas_h * canvas_w)
-    rows = int(np.clip(budget // (2 * len(chosen) * canvas_w), 1, canvas_h))
+    rows = int(np.clip(budget // (dtype.itemsize * len(chosen) * canvas_w), 1, canvas_h))
     starts = range(0, canvas_h, rows)
     median = np.empty((canvas_h, canvas_w), np.float32)
     spread = np.empty((canvas_h, canvas_w), np.float32)
     done = 0
     for start in starts:
         height = min(rows, canvas_h - start)
-        stack = np.full((len(chosen), height, canvas_w), MISSING, np.uint16)
+        stack = np.full((len(chosen), height, canvas_w), _missing(dtype), dtype)
         for k, i in enumerate(chosen):
             top, left = -places[i][1] - origin[1], -places[i][0] - origin[0]
             a, b = max(start, top), min(start + height, top + h)
             if a < b:
-                part = aligned_frame(film, motion, int(i))[a - top : b - top]
-                np.clip(part, low, high, out=part)
-                stack[k, a - start : b - start, left : left + w] = (part - low) * scale + 0.5
+                part = aligned_frame(film, motion, int(i))[a - top : b - top] - low
+                if packed:
+                    part = np.clip(part, 0, HIGHEST - LOWEST) * scale + 0.5
+                stack[k, a - start : b - start, left : left + w] = part
             done += 1
             report(done, len(chosen) * len(starts))
         middle, width = _order_statistics(stack)
@@ -96,30 +103,26 @@ def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, fra
     return Background(median, spread, origin, float(np.median(spread[seen])) if seen.any() else 0.0)
 
 
-def _grey_range(film: Film, motion: FilmMotion, chosen: np.ndarray) -> tuple[float, float]:
-    """Grey levels that hold every sampled frame, wide enough for the overshoot of resampling."""
-    if film.frame(0).dtype == np.uint8:
-        return -64.0, 448.0
-    few = [aligned_frame(film, motion, int(i)) for i in chosen[:: max(1, len(chosen) // 8)]]
-    low, high = min(float(f.min()) for f in few), max(float(f.max()) for f in few)
-    margin = 0.5 * (high - low) + 1e-3 * max(abs(low), abs(high)) + 1e-6
-    return low - margin, high + margin
+def _missing(dtype: np.dtype[Any]) -> float:
+    """The value that says that a frame does not show a place: the highest, so that it is sorted last."""
+    return float(np.iinfo(dtype).max if dtype.kind == "u" else np.finfo(dtype).max)
 
 
 def _order_statistics(
-    stack: UInt16[np.ndarray, "n h w"],
+    stack: UInt16[np.ndarray, "n h w"] | Float32[np.ndarray, "n h w"],
 ) -> tuple[Float32[np.ndarray, "h w"], Float32[np.ndarray, "h w"]]:
-    """Median and half the 16-84 % range over the values that are not MISSING; 0 where there are none.
+    """Median and half the 16-84 % range over the values that are not missing; 0 where there are none.
 
     Sorts rows that lie together in memory: many times quicker than np.median along the first axis.
     """
     n, h, w = stack.shape
+    missing = _missing(stack.dtype)
     middle, width = np.zeros(h * w, np.float32), np.zeros(h * w, np.float32)
     flat = stack.reshape(n, h * w)
     step = 1 << 15
     for a in range(0, h * w, step):
         values = np.sort(np.ascontiguousarray(flat[:, a : a + step].T), axis=1)
-        size = (values != MISSING).sum(axis=1) if values[:, -1].max() == MISSING else np.full(len(values), n)
+        size = (values != missing).sum(axis=1) if values[:, -1].max() == missing else np.full(len(values), n)
         at = np.arange(len(values))
 
         def quantile(q: float, values: np.ndarray = values, size: np.ndarray = size, at: np.ndarray = at) -> np.ndarray:
