@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
 from memtrack.defects import without_defects
@@ -24,7 +24,7 @@ from memtrack.models import CRITERIA, Model
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
 from memtrack.pruning import faint, prune
-from memtrack.resampling import ScaledFilm
+from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
 
@@ -98,6 +98,7 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     film = without_defects(film)
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
+    factors = factors_of(film, scaled)
     limits: dict[str, Any] = {
         "thresholds": settings.thresholds or model.card.thresholds[settings.criterion],
         "max_size_px": settings.max_size_px / scale,
@@ -118,9 +119,9 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
         for i, on_grid in enumerate(found):
             done = i + 1
             report(Stage.DETECTING, done, count)
-            candidates = to_film(on_grid, split_drift(motion.drift[i])[1], scale)
+            candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
             kept, counts = prune(candidates, **limits)
-            drift_x, drift_y = motion.drift[i] / scale
+            drift_x, drift_y = motion.drift[i] / factors
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
 
 
@@ -175,10 +176,11 @@ def _factor(known: tuple[float, float], length: float, given: str, wanted: str) 
     return factor
 
 
-def to_film(found: Detections, rest: tuple[float, float], scale: float) -> Detections:
+def to_film(found: Detections, rest: tuple[float, float], factors: Float64[np.ndarray, " 2"]) -> Detections:
     """Detections on an aligned, scaled frame in the coordinates of the film's own frame."""
     at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
-    return Detections(((at_model_scale + 0.5) / scale - 0.5).astype(np.float32), found.scores, found.levels)
+    boxes = (at_model_scale + 0.5) / np.tile(factors, 2).astype(np.float32) - 0.5
+    return Detections(boxes.astype(np.float32), found.scores, found.levels)
 
 
 def _at(report: Report, stage: Stage) -> Callable[[int, int], None]:

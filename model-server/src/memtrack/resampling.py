@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from jaxtyping import Float, Float32, Shaped
+from jaxtyping import Float, Float32, Float64, Shaped
 
 from memtrack.film import Calibration, Film
 
@@ -34,7 +34,7 @@ def read_shifted(image: Float32[np.ndarray, "h w"], dx: float, dy: float) -> Flo
 
 @dataclass(frozen=True, slots=True)
 class ScaledFilm:
-    """`film` with each frame resized by `factor`: pixel x of the film lands on (x + 0.5) * factor - 0.5, y likewise."""
+    """`film` with each frame resized by `factor`, to whole pixels: see `factors_of` for where a pixel lands."""
 
     film: Film
     factor: float
@@ -64,3 +64,8 @@ class ScaledFilm:
         """Frame `index`, scaled, as float32."""
         how = cv2.INTER_AREA if self.factor < 1 else cv2.INTER_CUBIC
         return cv2.resize(self.film.frame(index).astype(np.float32), (self.width, self.height), interpolation=how)
+
+
+def factors_of(film: Film, scaled: Film) -> Float64[np.ndarray, " 2"]:
+    """What x and y are really scaled by: x of `film` lands on (x + 0.5) * factor - 0.5 of `scaled`, y likewise."""
+    return np.array([scaled.width / film.width, scaled.height / film.height])

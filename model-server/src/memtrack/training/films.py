@@ -18,7 +18,7 @@ from memtrack.film import Calibration
 from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.motion import FeatureSpec
 from memtrack.pipeline import scale_to
-from memtrack.resampling import ScaledFilm
+from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable
@@ -93,7 +93,8 @@ def annotated_samples(
             truth = with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
             scale = scale_to(cell_length_px, film.calibration)
             scaled = film if scale == 1 else ScaledFilm(film, scale)
-            truth = replace(truth, x=(truth.x + 0.5) * scale - 0.5, y=(truth.y + 0.5) * scale - 0.5)
+            across, down = factors_of(film, scaled)
+            truth = replace(truth, x=(truth.x + 0.5) * across - 0.5, y=(truth.y + 0.5) * down - 0.5)
             rng = np.random.default_rng([seed, number])
             made.append(extract(scaled, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))
     return made
