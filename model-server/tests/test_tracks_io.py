@@ -141,6 +141,15 @@ def test_a_table_of_the_plug_in_tells_its_calibration(tmp_path: Path) -> None:
     assert read_tracks(without).calibration == Calibration()
 
 
+@pytest.mark.parametrize("header", ["id,track,frame,x,y", "track,id,frame,x,y", "id,TRACK_ID,frame,x,y"])
+def test_an_id_beside_a_track_is_that_of_a_spot(tmp_path: Path, header: str) -> None:
+    rows = {"id": "7", "track": "2", "TRACK_ID": "2", "frame": "3", "x": "1.5", "y": "4"}
+    line = ",".join(rows[name] for name in header.split(","))
+    table = read_tracks(write(tmp_path / "film.csv", f"{header}\n{line}\n"))
+    assert (table.ids.tolist(), table.frames.tolist(), table.x.tolist(), table.y.tolist()) == ([2], [3], [1.5], [4])
+    assert read_tracks(write(tmp_path / "old.csv", "id,frame,x,y\n7,3,1.5,4\n")).ids.tolist() == [7]
+
+
 def test_the_authors_table_counts_frames_from_one(tmp_path: Path) -> None:
     text = "Nr,TID,PID,x [pixel],y [pixel],t [sec],α [deg],Subpopulation\n1,1,1,3.5,4,0,NA,H\n2,1,2,3,5,0,NA,H\n"
     table = read_tracks(write(tmp_path / "Raw Data.csv", text))

@@ -25,8 +25,9 @@ from memtrack.tracks import UNLINKED, Motility, TrackTable
 Column = Float64[np.ndarray, " n"]
 HEADER = "track,frame,time_s,x,y,x_um,y_um,width,height,score,interpolated,ignored,motility"
 
+# A table with several of these names has the first of them: its "id" beside a "track" is that of a spot.
 _NAMES = {
-    "track": ("track", "id", "track_id", "tid", "particle"),
+    "track": ("track", "track_id", "tid", "particle", "id"),
     "frame": ("frame", "pid"),
     "x": ("x", "x_px", "x [pixel]"),
     "y": ("y", "y_px", "y [pixel]"),
@@ -61,7 +62,8 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
     except csv.Error as error:
         raise ValueError(f"not a table ({error})") from error
     names = [name.strip().lower() for name in rows[0]] if rows else []
-    places = {key: names.index(name) for key, known in _NAMES.items() for name in known if name in names}
+    best = {key: next((name for name in known if name in names), None) for key, known in _NAMES.items()}
+    places = {key: names.index(name) for key, name in best.items() if name is not None}
     missing = [key for key in ("track", "frame", "x", "y") if key not in places]
     if missing:
         raise ValueError(
