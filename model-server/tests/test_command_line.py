@@ -80,6 +80,11 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
         (("detect", film, "--out", out, "--model", "nobody"), "nobody"),
         (("detect", film, "--out", out, "--nms-iou", "7"), "nms_iou is 7.0"),
         (("detect", film, "--out", out, "--region", tmp_path / "missing.png"), "cannot read the region"),
+        (("detect", film, "--out", out, "--thresholds", "0.4,0.5"), "--thresholds is '0.4,0.5'; give three numbers"),
+        (
+            ("simulate", tmp_path / "missing" / "a.tif"),
+            f"folder of {tmp_path / 'missing' / 'a.tif'} does not exist; make",
+        ),
     ]:
         done = memtrack(*words)
         assert done.returncode == 2
@@ -90,7 +95,14 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
 
 
 def test_a_mistyped_value_is_refused_by_the_parser(film: Path, tmp_path: Path) -> None:
-    for option, value in [("--thresholds", "0.5"), ("--pixel-size-um", "-1"), ("--criterion", "best")]:
-        done = memtrack("detect", film, "--out", tmp_path / "d.csv", option, value)
+    detect = ("detect", film, "--out", tmp_path / "d.csv")
+    for words, sentence in [
+        ((*detect, "--pixel-size-um", "-1"), "argument --pixel-size-um: '-1' is not a positive number"),
+        ((*detect, "--frame-interval-s", "soon"), "argument --frame-interval-s: 'soon' is not a positive number"),
+        ((*detect, "--criterion", "best"), "argument --criterion: invalid choice: 'best'"),
+        (("evaluate", "--out", tmp_path, "--iou", "2"), "argument --iou: '2' is not a number from 0 to 1"),
+        (("train", tmp_path / "r.toml", "--workers", "0.5"), "argument --workers: '0.5' is not a whole number above 0"),
+    ]:
+        done = memtrack(*words)
         assert done.returncode == 2
-        assert option in done.stderr
+        assert sentence in done.stderr

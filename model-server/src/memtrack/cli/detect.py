@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from memtrack import __version__
+from memtrack.cli.arguments import check_folder_of, positive, thresholds
 from memtrack.detections import FilterCounts, Level
 from memtrack.detections_io import suffix, write_detections
 from memtrack.errors import SettingsError
@@ -34,14 +35,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--model", default=default.model, help="name, or name@version (default: %(default)s)")
     add("--criterion", choices=[c.replace("_", "-") for c in CRITERIA], default=default.criterion.replace("_", "-"),
         help="which of the model's thresholds to use (default: %(default)s)")  # fmt: skip
-    add("--thresholds", type=_thresholds, metavar="LOW,MEDIUM,HIGH", help="lowest score kept a level, instead")
+    add("--thresholds", metavar="LOW,MEDIUM,HIGH", help="lowest score kept a level, instead")
     add("--max-size-px", type=float, default=default.max_size_px, help="greatest box (default: %(default)s)")
     add("--nms-iou", type=float, default=default.nms_iou, help="greatest overlap (default: %(default)s)")
     add("--no-stabilisation", action="store_true", help="do not undo the drift of the stage")
     add("--region", type=Path, help="image of the film's size; detections are reported where it is not black")
-    add("--cell-length-px", type=_positive, help="length of a cell in this film, pixels")
-    add("--pixel-size-um", type=_positive, help="edge of a pixel, um (default: what the film says)")
-    add("--frame-interval-s", type=_positive, help="time between frames, s (default: what the film says)")
+    add("--cell-length-px", type=positive, help="length of a cell in this film, pixels")
+    add("--pixel-size-um", type=positive, help="edge of a pixel, um (default: what the film says)")
+    add("--frame-interval-s", type=positive, help="time between frames, s (default: what the film says)")
     add("--engine", default=default.engine, help="auto, openvino or torch (default: %(default)s)")
     add("--threads", type=int, default=engine_threads(), help="threads of the net (default here: %(default)s)")
     add("--quiet", action="store_true", help="no progress")
@@ -50,8 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Detects and writes; nothing is written unless the whole film went through."""
     suffix(options.out)
-    if not options.out.resolve().parent.is_dir():
-        raise SettingsError(f"the folder of {options.out} does not exist; make it, or write elsewhere")
+    check_folder_of(options.out)
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
     with open_film(options.film, Calibration(options.pixel_size_um, options.frame_interval_s)) as film:
@@ -90,7 +90,7 @@ def _settings(options: argparse.Namespace) -> DetectionSettings:
         model=name,
         version=version or None,
         criterion=options.criterion.replace("-", "_"),
-        thresholds=options.thresholds,
+        thresholds=None if options.thresholds is None else thresholds(options.thresholds),
         max_size_px=options.max_size_px,
         nms_iou=options.nms_iou,
         stabilise=not options.no_stabilisation,
@@ -142,18 +142,6 @@ def _provenance(
         "thresholds": dict(zip((level.name.lower() for level in Level), thresholds_of(model, settings), strict=True)),
         "counts": {name: getattr(counts, name) for name in counts.__slots__},
     }
-
-
-def _thresholds(text: str) -> tuple[float, float, float]:
-    low, medium, high = (float(part) for part in text.split(","))
-    return low, medium, high
-
-
-def _positive(text: str) -> float:
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise ValueError(text)
-    return value
 
 
 class _ProgressLine:

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import math
 from pathlib import Path
 
+from memtrack.cli.arguments import positive, share, thresholds
 from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.evaluation import baselines
 from memtrack.evaluation.curves import CurvePoint, precision_recall_curve
@@ -42,29 +42,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="also run these detectors on the film, with the settings that suit this truth best",
     )
     parser.add_argument("--out", type=Path, required=True, help="folder for evaluation.html and evaluation.json")
-    parser.add_argument("--iou", type=_share, default=0.1, help="boxes match above this overlap (default 0.1)")
-    parser.add_argument("--distance", type=_positive, metavar="PX", help="match centres nearer than this instead")
+    parser.add_argument("--iou", type=share, default=0.1, help="boxes match above this overlap (default 0.1)")
+    parser.add_argument("--distance", type=positive, metavar="PX", help="match centres nearer than this instead")
     parser.add_argument(
-        "--box-size", type=_positive, default=30.0, metavar="PX", help="box of a row that has none (default 30)"
+        "--box-size", type=positive, default=30.0, metavar="PX", help="box of a row that has none (default 30)"
     )
     parser.add_argument(
         "--min-length", type=int, default=1, metavar="FRAMES", help="drop shorter tracks (default 1: keep all)"
     )
     parser.add_argument(
         "--challenge-gate",
-        type=_positive,
+        type=positive,
         metavar="PX",
         help="gate of alpha, beta, JSC and RMSE (default: --distance, or 5)",
     )
-    parser.add_argument("--pixel-size-um", type=_positive, help="edge of a pixel, where the files do not say")
-    parser.add_argument("--frame-interval-s", type=_positive, help="time between frames, where the files do not say")
+    parser.add_argument("--pixel-size-um", type=positive, help="edge of a pixel, where the files do not say")
+    parser.add_argument("--frame-interval-s", type=positive, help="time between frames, where the files do not say")
     parser.add_argument(
         "--thresholds",
         metavar="LOW,MEDIUM,HIGH",
         help="score thresholds of the levels: follows the candidates through the pruner's filters",
     )
-    parser.add_argument("--max-size-px", type=_positive, default=35.0, help="pruner: greatest edge of a box")
-    parser.add_argument("--nms-iou", type=_share, default=0.7, help="pruner: greatest overlap of two boxes")
+    parser.add_argument("--max-size-px", type=positive, default=35.0, help="pruner: greatest edge of a box")
+    parser.add_argument("--nms-iou", type=share, default=0.7, help="pruner: greatest overlap of two boxes")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -74,11 +74,14 @@ def run(args: argparse.Namespace) -> int:
         InvalidInputError: a file or an option cannot be used.
     """
     files = _files(args)
+    pruner = None
+    if args.thresholds is not None:
+        pruner = PrunerSettings(thresholds(args.thresholds), args.max_size_px, args.nms_iou)
     options = Options(
         criterion=Criterion(args.iou, args.distance, args.box_size),
         min_length=_min_length(args.min_length),
         challenge_gate_px=args.challenge_gate or args.distance or 5.0,
-        pruner=None if args.thresholds is None else _pruner(args),
+        pruner=pruner,
     )
     films = [film.read() for film in files]
     report = Report(
@@ -139,35 +142,7 @@ def _baselines(
         return [baselines.tune(name, opened, options.criterion) for name in names]
 
 
-def _pruner(args: argparse.Namespace) -> PrunerSettings:
-    try:
-        thresholds = tuple(float(word) for word in args.thresholds.split(","))
-    except ValueError:
-        raise SettingsError(f"--thresholds is {args.thresholds!r}; give numbers such as 0.4,0.4,0.5") from None
-    return PrunerSettings(thresholds, args.max_size_px, args.nms_iou)
-
-
 def _min_length(frames: int) -> int:
     if frames < 1:
         raise SettingsError(f"--min-length is {frames}; give 1 or more frames")
     return frames
-
-
-def _positive(word: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        value = math.nan
-    if not (0 < value < math.inf):
-        raise argparse.ArgumentTypeError(f"{word!r} is not a positive number")
-    return value
-
-
-def _share(word: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        value = math.nan
-    if not 0 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{word!r} is not a number from 0 to 1")
-    return value

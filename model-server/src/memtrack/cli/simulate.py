@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import tifffile
 
+from memtrack.cli.arguments import check_folder_of
 from memtrack.errors import SettingsError
 from memtrack.formats.trackmate_writer import FilmFile
 from memtrack.simulation.families import FAMILIES, draw_recipe
@@ -30,13 +31,14 @@ def run(args: argparse.Namespace) -> int:
     """Writes OUTPUT.tif, and its truth as .csv, .xml (TrackMate) and .mdf (MTrackJ) of the same name.
 
     Raises:
-        SettingsError: a size is out of range.
+        SettingsError: a size is out of range, or the folder is missing.
     """
     for name, low, high in (("frames", 1, 20000), ("width", 32, 8192), ("height", 32, 8192), ("seed", 0, 2**31)):
         if not low <= getattr(args, name) <= high:
             raise SettingsError(f"--{name} is {getattr(args, name)}: give a number from {low} to {high}")
     if args.output.suffix.lower() not in (".tif", ".tiff"):
         raise SettingsError(f"{args.output} is no TIFF name: let it end in .tif")
+    check_folder_of(args.output)
     rng = np.random.default_rng(args.seed)
     recipe = draw_recipe(args.family, rng, width=args.width, height=args.height, frames=args.frames)
     made = simulate(recipe, args.seed)

@@ -7,6 +7,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from memtrack.cli.arguments import count
 from memtrack.errors import EngineUnavailableError
 from memtrack.models import user_models
 
@@ -19,8 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--models", type=Path, help=f"registry to add the model to (default: {user_models()})")
     parser.add_argument("--device", default="cpu", help="cpu, cuda, cuda:1, mps ... (default: cpu)")
-    parser.add_argument("--threads", type=int, default=1, help="threads of the optimisation on a CPU (default: 1)")
-    parser.add_argument("--workers", type=int, default=1, help="processes that make films (default: 1)")
+    parser.add_argument("--threads", type=count, default=1, help="threads of the optimisation on a CPU (default: 1)")
+    parser.add_argument("--workers", type=count, default=1, help="processes that make films (default: 1)")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What several subcommands ask of their arguments; each refusal says what was given."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+from memtrack.errors import SettingsError
+
+
+def positive(word: str) -> float:
+    """A number above 0."""
+    value = _number(word)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{word!r} is not a positive number")
+    return value
+
+
+def share(word: str) -> float:
+    """A number from 0 to 1."""
+    value = _number(word)
+    if not 0 <= value <= 1:
+        raise argparse.ArgumentTypeError(f"{word!r} is not a number from 0 to 1")
+    return value
+
+
+def count(word: str) -> int:
+    """A whole number above 0."""
+    value = _number(word)
+    if not 1 <= value < math.inf or value != int(value):
+        raise argparse.ArgumentTypeError(f"{word!r} is not a whole number above 0")
+    return int(value)
+
+
+def _number(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan
+
+
+def thresholds(text: str) -> tuple[float, float, float]:
+    """Lowest scores of the low, medium and high level, with commas between them.
+
+    Raises:
+        SettingsError: these are not three numbers.
+    """
+    try:
+        low, medium, high = (float(word) for word in text.split(","))
+    except ValueError:
+        raise SettingsError(f"--thresholds is {text!r}; give three numbers such as 0.4,0.4,0.5") from None
+    return low, medium, high
+
+
+def check_folder_of(path: Path) -> None:
+    """Raises SettingsError where the folder that `path` is to be written to is missing, before any work is done."""
+    if not path.resolve().parent.is_dir():
+        raise SettingsError(f"the folder of {path} does not exist; make it, or write elsewhere")
