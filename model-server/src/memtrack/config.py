@@ -17,6 +17,8 @@ PROTOCOL = 1
 CHUNK_BYTES = 1 << 20
 """Most bytes of samples in one message."""
 
+MAX_GRACE_SECONDS = 86400.0
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -25,6 +27,9 @@ class Limits:
     max_film_bytes: all samples of a film. max_frame_pixels: width x height, since a few whole frames are held in
     memory. max_frames: frames of a film. max_films: films received or worked on at the same time. idle_seconds: how
     long a client may stay silent before its film is complete.
+
+    Raises:
+        SettingsError: a limit is not above 0, so that no film could be taken.
     """
 
     max_film_bytes: int = 64 << 30
@@ -32,6 +37,12 @@ class Limits:
     max_frames: int = 1_000_000
     max_films: int = 16
     idle_seconds: float = 120.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = getattr(self, name)
+            if not value > 0:
+                raise SettingsError(f"{name} is {value}; give a number above 0")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +74,8 @@ class ServerConfig:
             raise SettingsError(f"port {self.port} does not exist; give one from 1 to 65535, or 0 for any free one")
         if not 1 <= self.threads <= 256:
             raise SettingsError(f"threads is {self.threads}; give a number from 1 to 256")
+        if not 0 <= self.grace_seconds <= MAX_GRACE_SECONDS:
+            raise SettingsError(f"grace_seconds is {self.grace_seconds}; give a number from 0 to {MAX_GRACE_SECONDS:g}")
         if (self.tls_certificate is None) != (self.tls_key is None):
             raise SettingsError("TLS needs both a certificate and its key; give --tls-cert and --tls-key")
         if not self.is_local and (self.tls_certificate is None or not self.token):

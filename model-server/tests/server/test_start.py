@@ -125,6 +125,11 @@ def test_a_port_in_use_is_said(spool_folder: Path) -> None:
 
 def test_unusable_options_get_one_sentence(tmp_path: Path) -> None:
     assert "port 70000 does not exist" in _refusal("--port", "70000")
+    for option, name in (("--max-films", "max_films"), ("--max-film-bytes", "max_film_bytes")):
+        assert f"{name} is 0; give a number above 0" in _refusal(option, "0")
+    for bad in ("-1", "0", "nan"):
+        assert f"idle_seconds is {float(bad)}; give a number above 0" in _refusal("--idle-seconds", bad)
+    assert "grace_seconds is -1.0; give a number from 0 to 86400" in _refusal("--grace-seconds", "-1")
     assert "TLS needs both a certificate and its key" in _refusal("--tls-cert", "x.pem")
     assert "no token came on standard input" in _refusal("--token-from-stdin", line="\n")
     missing = tmp_path / "missing"
