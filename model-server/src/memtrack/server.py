@@ -6,8 +6,10 @@ from __future__ import annotations
 import json
 import logging
 import os
+import ssl
 import sys
 from concurrent import futures
+from pathlib import Path
 
 import grpc
 from grpc_health.v1 import health, health_pb2, health_pb2_grpc
@@ -109,12 +111,24 @@ def _bind(server: grpc.Server, config: ServerConfig) -> int:
     try:
         if config.tls_certificate is None or config.tls_key is None:
             return server.add_insecure_port(config.address)
-        pair = (config.tls_key.read_bytes(), config.tls_certificate.read_bytes())
-        return server.add_secure_port(config.address, grpc.ssl_server_credentials([pair]))
-    except OSError as error:
-        raise SettingsError(f"cannot read {error.filename}: {error.strerror}; check the TLS files") from error
+        return server.add_secure_port(config.address, _credentials(config.tls_certificate, config.tls_key))
     except RuntimeError as error:
         raise SettingsError(
             f"cannot listen on {config.address}; the port is in use or the address is not this machine's, "
             "choose another one, or port 0 for any free port"
         ) from error
+
+
+def _credentials(certificate: Path, key: Path) -> grpc.ServerCredentials:
+    """The TLS files, tried out first: gRPC says of wrong ones only that it cannot bind."""
+    try:
+        pair = (key.read_bytes(), certificate.read_bytes())
+        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(certificate, key, password=lambda: "")
+        return grpc.ssl_server_credentials([pair])
+    except ssl.SSLError as error:
+        raise SettingsError(
+            f"the certificate {certificate} and the key {key} cannot be used ({error}); "
+            "give a certificate and its own key, both in PEM and without a password"
+        ) from error
+    except OSError as error:
+        raise SettingsError(f"cannot read {error.filename}: {error.strerror}; check the TLS files") from error

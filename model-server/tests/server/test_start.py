@@ -138,6 +138,19 @@ def test_unusable_options_get_one_sentence(tmp_path: Path) -> None:
     assert f"cannot read {missing}: No such file" in _refusal(*pair)
 
 
+def test_tls_files_that_cannot_be_used_are_not_called_a_port_in_use(tmp_path: Path) -> None:
+    authority = trustme.CA()
+    one, other = (authority.issue_cert("localhost") for _ in range(2))
+    certificate, key, text = tmp_path / "cert.pem", tmp_path / "key.pem", tmp_path / "text.pem"
+    one.cert_chain_pems[0].write_to_path(certificate)
+    other.private_key_pem.write_to_path(key)
+    text.write_text("not a certificate", encoding="utf-8")
+    for pair in ((certificate, key), (text, key), (certificate, text)):
+        said = _refusal("--tls-cert", str(pair[0]), "--tls-key", str(pair[1]))
+        assert f"the certificate {pair[0]} and the key {pair[1]} cannot be used (" in said
+        assert "give a certificate and its own key" in said
+
+
 def test_tls_serves_who_trusts_the_certificate(spool_folder: Path) -> None:
     authority = trustme.CA()
     issued = authority.issue_cert("localhost", "127.0.0.1")
