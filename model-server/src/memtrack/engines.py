@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The engines that run a net: OpenVINO on the CPU (default) and torch (reference, training, GPU)."""
+"""The engines that run a net on the CPU: OpenVINO (default) and torch (reference, and models without another form)."""
 
 from __future__ import annotations
 
@@ -62,9 +62,9 @@ class OpenVinoEngine:
 
 
 class TorchEngine:
-    """The net as it was trained, on a CPU or a GPU."""
+    """The net as it was trained."""
 
-    def __init__(self, architecture: Mapping[str, Any], channels: int, weights: Path, device: str = "cpu") -> None:
+    def __init__(self, architecture: Mapping[str, Any], channels: int, weights: Path) -> None:
         try:
             import safetensors.torch
             import torch
@@ -74,15 +74,15 @@ class TorchEngine:
             ) from error
         from memtrack.retinanet import build
 
-        self._torch, self._device = torch, device
+        self._torch = torch
         self.net = build(architecture, channels)
         self.net.load_state_dict(safetensors.torch.load_file(weights), strict=False)
-        self.net.eval().to(device)
+        self.net.eval()
 
     def run(self, features: UInt8[np.ndarray, "channel y x"]) -> Maps:
         """See `Engine.run`."""
         with self._torch.inference_mode():
-            maps: Maps = self.net(self._torch.from_numpy(features[None]).to(self._device))[0].float().cpu().numpy()
+            maps: Maps = self.net(self._torch.from_numpy(features[None]))[0].float().numpy()
             return maps
 
 

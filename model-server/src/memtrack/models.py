@@ -103,7 +103,7 @@ class Model:
         """The weights in safetensors."""
         return self.folder / WEIGHTS
 
-    def engine(self, kind: str = "auto", *, threads: int = 1, device: str = "cpu") -> Engine:
+    def engine(self, kind: str = "auto", *, threads: int = 1) -> Engine:
         """The net ready to run: 'openvino', 'torch', or 'auto' (OpenVINO where the model has its form, else torch).
 
         Raises:
@@ -112,9 +112,7 @@ class Model:
         """
         match kind:
             case "auto":
-                return self.engine(
-                    "openvino" if OPENVINO in self.card.files else "torch", threads=threads, device=device
-                )
+                return self.engine("openvino" if OPENVINO in self.card.files else "torch", threads=threads)
             case "openvino" if OPENVINO in self.card.files:
                 return OpenVinoEngine(self.folder / OPENVINO, threads)
             case "openvino":
@@ -122,7 +120,7 @@ class Model:
                     f"model {self.card.name} {self.card.version} has no OpenVINO form: use torch"
                 )
             case "torch":
-                return TorchEngine(self.card.architecture, len(self.card.features.channels), self.weights, device)
+                return TorchEngine(self.card.architecture, len(self.card.features.channels), self.weights)
             case _:
                 raise SettingsError(f"engine {kind!r} is unknown: use auto, openvino or torch")
 
