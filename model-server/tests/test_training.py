@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import argparse
+import ast
 import json
+import subprocess
 import sys
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 import tifffile
 
+import memtrack
 from memtrack.channels import NEUTRAL
 from memtrack.cli import models as models_command
 from memtrack.cli import train as command
@@ -22,7 +25,7 @@ from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable
 from memtrack.tracks_io import write_tracks
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig, read_config
-from memtrack.training.films import SimulatedSet, simulated_samples, with_motility
+from memtrack.training.films import _SHAPING, SimulatedSet, simulated_samples, with_motility
 from memtrack.training.samples import FilmSamples, extract
 
 torch = pytest.importorskip("torch")
@@ -161,6 +164,19 @@ def test_cached_samples_are_read_back(tmp_path: Path) -> None:
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*.npy")} == stamps
     np.testing.assert_array_equal(first[1].features, again[1].features)
     np.testing.assert_array_equal(first[1].truth[2], again[1].truth[2])
+
+
+def test_samples_are_made_anew_when_any_code_they_are_made_by_has_changed() -> None:
+    code = (
+        "import sys, memtrack.training.samples, memtrack.simulation.film, memtrack.simulation.families\n"
+        "modules = [m for name, m in sys.modules.items() if name.startswith('memtrack')]\n"
+        "print([m.__file__ for m in modules if not m.__file__.endswith('__init__.py')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    package = Path(memtrack.__file__).parent
+    used = {Path(file).relative_to(package).as_posix() for file in ast.literal_eval(done.stdout)}
+    values = {"errors.py", "detections.py", "tracks.py"}
+    assert used - values == set(_SHAPING) - {"training/films.py"}
 
 
 def test_motility_is_measured_where_a_file_does_not_say_it() -> None:

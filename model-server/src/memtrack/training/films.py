@@ -149,18 +149,35 @@ def _number(family: str) -> int:
 
 def _key(films: SimulatedSet, spec: FeatureSpec) -> str:
     code = hashlib.sha256()
-    for folder in ("simulation", "."):
-        for source in sorted((Path(__file__).parents[1] / folder).glob("*.py")):
-            if source.name in _SHAPING:
-                code.update(source.read_bytes())
+    for source in _SHAPING:
+        code.update((Path(__file__).parents[1] / source).read_bytes())
     what = json.dumps([films.family, films.size, films.frames, asdict(spec)])
     return f"{films.family}-{hashlib.sha256(code.digest() + what.encode()).hexdigest()[:12]}"
 
 
-_SHAPING = {
-    *("film.py", "recipe.py", "families.py", "scenes.py", "swimming.py", "optics.py", "bacteria.py", "truth.py"),
-    *("variations.py", "captions.py"),
-    *("stabilisation.py", "background.py", "fixed_pattern.py", "wobble.py", "scene.py"),
-    *("channels.py", "motion.py", "flow.py", "resampling.py"),
-}
+_SHAPING = (
+    "simulation/film.py",
+    "simulation/recipe.py",
+    "simulation/families.py",
+    "simulation/scenes.py",
+    "simulation/swimming.py",
+    "simulation/optics.py",
+    "simulation/bacteria.py",
+    "simulation/truth.py",
+    "simulation/variations.py",
+    "simulation/captions.py",
+    "training/films.py",
+    "training/samples.py",
+    "film.py",
+    "stabilisation.py",
+    "background.py",
+    "fixed_pattern.py",
+    "wobble.py",
+    "scene.py",
+    "channels.py",
+    "motion.py",
+    "flow.py",
+    "resampling.py",
+    "motility.py",
+)
 """Source files that change what a sample holds."""
