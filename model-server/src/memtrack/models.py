@@ -37,8 +37,8 @@ CRITERIA = ("max_precision", "max_f1")
 class ModelCard:
     """Everything needed to use a model and to judge it; stored as `model.json`.
 
-    pixel_size_um, cell_length_px: scale of the training films; smallest and largest length of a cell the model
-    knows, in pixels. thresholds: for each criterion one score a level. files: SHA-256 of each file beside the card.
+    cell_length_px: smallest and largest length of a cell the model knows, in pixels. thresholds: for each criterion one
+    score a level. files: SHA-256 of each file beside the card.
     """
 
     name: str

@@ -50,7 +50,7 @@ class ModelSettings:
 
 @dataclass(frozen=True, slots=True)
 class Optimisation:
-    """AdamW with warm-up and a cosine fall. crop in pixels; batch in crops; validate_every in iterations."""
+    """AdamW with warm-up and a cosine fall. crop in pixels; batch in crops; checkpoint_every in iterations."""
 
     iterations: int = 4000
     batch: int = 8
