@@ -3,6 +3,7 @@ package org.memtrack.server;
 
 import com.google.gson.Gson;
 import com.google.gson.JsonParseException;
+import java.io.EOFException;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.nio.charset.StandardCharsets;
@@ -55,6 +56,10 @@ final class LocalServer {
      * @throws CancellationException when progress was cancelled; the process is ended
      */
     static LocalServer start(Interpreter interpreter, Progress progress) throws StartException {
+        return start(interpreter, progress, START_LIMIT);
+    }
+
+    static LocalServer start(Interpreter interpreter, Progress progress, Duration limit) throws StartException {
         String token = HexFormat.of().formatHex(randomBytes());
         ProcessBuilder builder = interpreter.process(
                 "-m",
@@ -79,13 +84,15 @@ final class LocalServer {
             OutputStream stdin = process.getOutputStream();
             stdin.write((token + "\n").getBytes(StandardCharsets.UTF_8));
             stdin.flush();
-            Greeting said = await(greeting, process, progress);
+            Greeting said = await(greeting, process, progress, limit);
             checkProtocol(said, interpreter);
             started = true;
             return new LocalServer(process, interpreter, errors, said, token);
         } catch (IOException | TimeoutException e) {
             end(process);
-            throw new StartException(reason(interpreter, process, errors, output), e);
+            String what =
+                    e instanceof TimeoutException ? "did not start within %d s".formatted(limit.toSeconds()) : "ended";
+            throw new StartException(reason(interpreter, what, errors, output), e);
         } finally {
             if (!started) {
                 end(process);
@@ -145,9 +152,11 @@ final class LocalServer {
         }
     }
 
-    private static Greeting await(CompletableFuture<Greeting> greeting, Process process, Progress progress)
-            throws TimeoutException {
-        long end = System.nanoTime() + START_LIMIT.toNanos();
+    /** @throws IOException when the process ended without a greeting */
+    private static Greeting await(
+            CompletableFuture<Greeting> greeting, Process process, Progress progress, Duration limit)
+            throws IOException, TimeoutException {
+        long end = System.nanoTime() + limit.toNanos();
         while (System.nanoTime() < end) {
             progress.throwIfCancelled();
             boolean alive = process.isAlive();
@@ -155,7 +164,7 @@ final class LocalServer {
                 return greeting.get(100, TimeUnit.MILLISECONDS);
             } catch (TimeoutException e) {
                 if (!alive) {
-                    throw e;
+                    throw new EOFException("it ended without a greeting");
                 }
             } catch (InterruptedException e) {
                 Thread.currentThread().interrupt();
@@ -175,7 +184,7 @@ final class LocalServer {
         }
     }
 
-    private static String reason(Interpreter interpreter, Process process, Tail errors, Tail output) {
+    private static String reason(Interpreter interpreter, String what, Tail errors, Tail output) {
         try {
             errors.finish();
             output.finish();
@@ -190,8 +199,7 @@ final class LocalServer {
                 ? last(lines)
                 : output.lines().isEmpty() ? "it said nothing" : "it said \"" + last(output.lines()) + "\"";
         String clause = words.replaceAll("[.\\s]+$", "");
-        String ended = process.isAlive() ? "did not start within %d s".formatted(START_LIMIT.toSeconds()) : "ended";
-        return "the server of %s %s: %s".formatted(interpreter.describe(), ended, clause);
+        return "the server of %s %s: %s".formatted(interpreter.describe(), what, clause);
     }
 
     private static String last(List<String> lines) {

@@ -41,6 +41,14 @@ class LocalServerTest {
     }
 
     @Test
+    void aProgramThatNeverBecomesReadyIsToldSo() throws Exception {
+        Interpreter silent = script("import sys; print('loading', file=sys.stderr, flush=True); sys.stdin.read()");
+        assertThatThrownBy(() -> LocalServer.start(silent, Progress.NONE, Duration.ofSeconds(1)))
+                .isInstanceOf(StartException.class)
+                .hasMessageEndingWith("did not start within 1 s: loading");
+    }
+
+    @Test
     void aProgramThatDoesNotExistIsNoServer() {
         Interpreter missing = new Interpreter(List.of(folder.resolve("python").toString()), "as given", true, false);
         assertThatThrownBy(() -> LocalServer.start(missing, Progress.NONE))
