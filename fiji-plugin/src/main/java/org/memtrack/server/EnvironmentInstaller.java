@@ -120,7 +120,7 @@ public final class EnvironmentInstaller {
         throw BasePython.none(objections);
     }
 
-    private PythonEnvironment make(EnvironmentStart start, boolean torch, Progress progress) throws IOException {
+    PythonEnvironment make(EnvironmentStart start, boolean torch, Progress progress) throws IOException {
         Files.deleteIfExists(log());
         String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
         Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
@@ -151,7 +151,7 @@ public final class EnvironmentInstaller {
             complete = true;
         } finally {
             if (!complete) {
-                Folders.delete(folder);
+                Folders.tryDelete(folder);
             }
         }
         Servers.end();

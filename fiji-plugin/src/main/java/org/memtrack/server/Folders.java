@@ -15,7 +15,7 @@ final class Folders {
     private Folders() {}
 
     /** Deletes a folder and all in it, not following links; without effect when it is not there. */
-    static void delete(Path folder) throws IOException {
+    private static void delete(Path folder) throws IOException {
         if (!Files.exists(folder)) {
             return;
         }
@@ -42,12 +42,15 @@ final class Folders {
                     .filter(folder -> !folder.equals(kept))
                     .toList();
         }
-        for (Path other : others) {
-            try {
-                delete(other);
-            } catch (IOException e) {
-                System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Not deleted yet: " + other, e);
-            }
+        others.forEach(Folders::tryDelete);
+    }
+
+    /** Deletes a folder and all in it; what cannot be deleted stays, with a line in the log. */
+    static void tryDelete(Path folder) {
+        try {
+            delete(folder);
+        } catch (IOException e) {
+            System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Not deleted yet: " + folder, e);
         }
     }
 }

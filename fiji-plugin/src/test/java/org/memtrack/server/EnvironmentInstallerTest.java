@@ -3,6 +3,7 @@ package org.memtrack.server;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.junit.jupiter.api.Assumptions.assumeTrue;
 
 import java.io.IOException;
 import java.nio.channels.FileChannel;
@@ -14,6 +15,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.atomic.AtomicReference;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -77,6 +79,37 @@ class EnvironmentInstallerTest {
                 .isInstanceOf(CancellationException.class);
         assertThat(environments()).isEmpty();
         assertThat(PythonEnvironment.installed(data)).isEmpty();
+    }
+
+    @Test
+    void whatCannotBeDeletedDoesNotHideWhyTheInstallationEnded() throws Exception {
+        assumeTrue(System.getProperty("os.name").equals("Linux"), "Others limit the length of a path otherwise.");
+        Path apart = folders(folder.resolve("apart"), 18);
+        AtomicReference<Path> tooDeep = new AtomicReference<>();
+        EnvironmentStart cancelled = (environment, progress) -> {
+            tooDeep.set(folders(environment, 18).resolve("deeper"));
+            Files.move(folder.resolve("apart"), tooDeep.get());
+            throw new CancellationException("Cancelled by the user.");
+        };
+        Files.createDirectories(data);
+        EnvironmentInstaller installer = installer(SmallWheel.of(SmallWheel.SERVER, ">=3"));
+        try {
+            assertThatThrownBy(() -> installer.make(cancelled, false, Progress.NONE))
+                    .isInstanceOf(CancellationException.class);
+            assertThat(environments()).as("what is too deep to delete").hasSize(1);
+        } finally {
+            Files.move(tooDeep.get(), folder.resolve("apart"));
+        }
+        assertThat(apart).isDirectory();
+    }
+
+    /** The innermost of folders in each other; one branch of 18 in another makes a path longer than 4096 characters. */
+    private static Path folders(Path outermost, int count) throws IOException {
+        Path innermost = outermost;
+        for (int i = 0; i < count; i++) {
+            innermost = innermost.resolve("x".repeat(120));
+        }
+        return Files.createDirectories(innermost);
     }
 
     @Test
