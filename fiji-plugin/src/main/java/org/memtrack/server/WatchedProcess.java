@@ -3,9 +3,13 @@ package org.memtrack.server;
 
 import java.io.IOException;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
 import java.util.function.Consumer;
 import org.memtrack.client.Progress;
 
@@ -52,15 +56,19 @@ final class WatchedProcess {
         }
     }
 
+    /** Ends it and its children; on Windows the python of a venv is a launcher, and its child the real one. */
     private static void kill(Process process) {
-        List<ProcessHandle> family = process.descendants().toList();
-        process.destroyForcibly();
+        List<ProcessHandle> family = new ArrayList<>(process.descendants().toList());
+        family.add(process.toHandle());
         family.forEach(ProcessHandle::destroyForcibly);
         try {
             // On Windows files can be deleted only when their process has ended.
-            process.waitFor(5, TimeUnit.SECONDS);
+            CompletableFuture.allOf(family.stream().map(ProcessHandle::onExit).toArray(CompletableFuture[]::new))
+                    .get(5, TimeUnit.SECONDS);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
+        } catch (ExecutionException | TimeoutException e) {
+            System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Still running: " + family, e);
         }
     }
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.OptionalDouble;
+import java.util.concurrent.CancellationException;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
+
+/** Real processes of the Python on the path. */
+@Timeout(60)
+class WatchedProcessTest {
+    @TempDir
+    Path folder;
+
+    @Test
+    void aCancelledProgramHasEndedWithTheChildrenItStarted() throws Exception {
+        Path pid = folder.resolve("pid");
+        String child = """
+                import os, sys, time
+                memory = b"x" * 300_000_000
+                open(sys.argv[1] + ".new", "w").write(str(os.getpid()))
+                os.rename(sys.argv[1] + ".new", sys.argv[1])
+                time.sleep(60)
+                """;
+        String launcher = "import subprocess, sys; subprocess.run([sys.executable, '-c', sys.argv[1], sys.argv[2]])";
+        ProcessBuilder program = python().process("-c", launcher, child, pid.toString());
+        assertThatThrownBy(() -> WatchedProcess.run(program, cancelledOnce(pid), line -> {}, Duration.ofMinutes(1)))
+                .isInstanceOf(CancellationException.class);
+        assertThat(ProcessHandle.of(Long.parseLong(Files.readString(pid))).filter(ProcessHandle::isAlive))
+                .isEmpty();
+    }
+
+    private static Interpreter python() {
+        return Interpreters.onPath(System.getenv()).get(0);
+    }
+
+    private static Progress cancelledOnce(Path exists) {
+        return new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {}
+
+            @Override
+            public boolean cancelled() {
+                return Files.exists(exists);
+            }
+        };
+    }
+}
