@@ -31,7 +31,7 @@ import org.memtrack.detection.DetectorException;
 public final class EnvironmentInstaller {
     private static final Duration LIMIT = Duration.ofMinutes(90);
     private static final long BASE_BYTES = 2L << 30;
-    private static final long TORCH_BYTES = 10L << 30;
+    private static final long TRAINING_BYTES = 10L << 30;
 
     private final Path dataFolder;
     private final ServerWheel wheel;
@@ -55,18 +55,18 @@ public final class EnvironmentInstaller {
      * Makes a new environment and puts it into use in place of an older one.
      *
      * @param python to make it with; null to look for one on the path, then in a jar beside the plug-in's
-     * @param torch whether to install PyTorch too, for training and graphics cards
+     * @param training whether to install what training needs, too: PyTorch, which graphics cards need as well, and nncf
      * @throws DetectorException when it cannot be made; the older one, if any, is in use as before
      * @throws CancellationException when progress was cancelled; likewise
      */
-    public PythonEnvironment install(@Nullable Path python, boolean torch, Progress progress) {
+    public PythonEnvironment install(@Nullable Path python, boolean training, Progress progress) {
         try {
             Files.createDirectories(dataFolder);
-            checkSpace(torch ? TORCH_BYTES : BASE_BYTES);
+            checkSpace(training ? TRAINING_BYTES : BASE_BYTES);
             try (FileChannel channel = FileChannel.open(
                     dataFolder.resolve("install.lock"), StandardOpenOption.CREATE, StandardOpenOption.WRITE)) {
                 lock(channel);
-                return make(start(python, progress), torch, progress);
+                return make(start(python, progress), training, progress);
             }
         } catch (IOException e) {
             throw new DetectorException(
@@ -120,7 +120,7 @@ public final class EnvironmentInstaller {
         throw BasePython.none(objections);
     }
 
-    PythonEnvironment make(EnvironmentStart start, boolean torch, Progress progress) throws IOException {
+    PythonEnvironment make(EnvironmentStart start, boolean training, Progress progress) throws IOException {
         Files.deleteIfExists(log());
         String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
         Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
@@ -141,7 +141,7 @@ public final class EnvironmentInstaller {
                             "--no-warn-script-location",
                             "--progress-bar=off",
                             // By its bare name: pip would read a bracket in a path as an extra.
-                            wheel.fileName() + (torch ? "[torch]" : ""))
+                            wheel.fileName() + (training ? "[train]" : ""))
                     .directory(parcels.toFile());
             progress.report("Installing", 0.1, OptionalDouble.empty(), "");
             step("installing the packages", pip, progress.between(0.1, 0.9));

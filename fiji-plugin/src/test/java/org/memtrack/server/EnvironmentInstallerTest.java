@@ -64,6 +64,14 @@ class EnvironmentInstallerTest {
     }
 
     @Test
+    void forTrainingTheExtraThatTheServerHasForItIsInstalled() throws Exception {
+        ServerWheel wheel = SmallWheel.of(SmallWheel.SERVER, ">=3");
+        installer(wheel).install(null, true, Progress.NONE);
+        assertThat(data.resolve("install.log")).content().contains("memtrack").doesNotContain("does not provide");
+        assertThat(Path.of("..", "model-server", "pyproject.toml")).content().containsPattern("(?m)^train = .*nncf");
+    }
+
+    @Test
     void cancellingLeavesNothingBehind() throws Exception {
         Progress cancelledWhenMade = new Progress() {
             @Override

@@ -29,10 +29,13 @@ final class SmallWheel {
         try (ZipOutputStream zip = new ZipOutputStream(bytes)) {
             add(zip, "memtrack/__init__.py", "");
             add(zip, "memtrack/__main__.py", main);
-            add(
-                    zip,
-                    "memtrack-9.9.9.dist-info/METADATA",
-                    "Metadata-Version: 2.1\nName: memtrack\nVersion: 9.9.9\nRequires-Python: %s\n".formatted(python));
+            add(zip, "memtrack-9.9.9.dist-info/METADATA", """
+                    Metadata-Version: 2.1
+                    Name: memtrack
+                    Version: 9.9.9
+                    Requires-Python: %s
+                    Provides-Extra: train
+                    """.formatted(python));
             add(
                     zip,
                     "memtrack-9.9.9.dist-info/WHEEL",
