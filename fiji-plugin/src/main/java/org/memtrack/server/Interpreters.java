@@ -26,7 +26,7 @@ final class Interpreters {
      * Pythons that may start the server, best first: the one given, or that of MEMTRACK_PYTHON, or the environment made
      * by our installer followed by those on the path.
      *
-     * @throws DetectorException when the one that was named does not exist
+     * @throws DetectorException when the one that was named does not exist, or its name is no path
      */
     static List<Interpreter> candidates(@Nullable Path given, Map<String, String> environment, Path dataFolder) {
         if (given != null) {
@@ -34,7 +34,7 @@ final class Interpreters {
         }
         String named = environment.getOrDefault("MEMTRACK_PYTHON", "");
         if (!named.isBlank()) {
-            return List.of(named(Path.of(named), "named by MEMTRACK_PYTHON"));
+            return List.of(named(VariablePath.of("MEMTRACK_PYTHON", named), "named by MEMTRACK_PYTHON"));
         }
         List<Interpreter> found = new ArrayList<>();
         PythonEnvironment.installed(dataFolder).ifPresent(installed -> found.add(installed.interpreter()));

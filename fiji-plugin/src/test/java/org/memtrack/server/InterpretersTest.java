@@ -62,6 +62,16 @@ class InterpretersTest {
     }
 
     @Test
+    void aVariableThatHoldsNoPathIsOneSentence() {
+        assertThatThrownBy(() -> Interpreters.candidates(null, Map.of("MEMTRACK_PYTHON", "py\0thon"), folder))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("The variable MEMTRACK_PYTHON is \"py\0thon\", which is no path");
+        assertThatThrownBy(() -> DataFolder.path(Map.of("MEMTRACK_HOME", "ho\0me"), "Linux", folder))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("The variable MEMTRACK_HOME is \"ho\0me\", which is no path");
+    }
+
+    @Test
     void theDataFolderIsTheUsualOneOfEachSystem() {
         Path home = folder.resolve("home");
         assertThat(DataFolder.path(Map.of("MEMTRACK_HOME", folder.toString()), "Linux", home))
