@@ -54,7 +54,7 @@ public final class EnvironmentInstaller {
     /**
      * Makes a new environment and puts it into use in place of an older one.
      *
-     * @param python to make it with; null to look for one on the path, then in a jar beside the plug-in's
+     * @param python to make it with; null to look for one on this machine, then in a jar beside the plug-in's
      * @param training whether to install what training needs, too: PyTorch, which graphics cards need as well, and nncf
      * @throws DetectorException when it cannot be made; the older one, if any, is in use as before
      * @throws CancellationException when progress was cancelled; likewise
@@ -100,13 +100,13 @@ public final class EnvironmentInstaller {
         }
     }
 
-    /** A venv of the Python that was named, or else of one on the path; without any, a copy of one carried by a jar. */
+    /** A venv of the Python that was named, or else of one on this machine; without any, a copy of one carried by a jar. */
     private EnvironmentStart start(@Nullable Path python, Progress progress) {
         progress.report("Looking for Python", 0, OptionalDouble.empty(), "");
         List<String> objections = new ArrayList<>();
         Optional<Interpreter> base = BasePython.choose(
                 python == null
-                        ? Interpreters.onPath(environment)
+                        ? Interpreters.onThisMachine(environment)
                         : Interpreters.candidates(python, environment, python),
                 objections,
                 progress);

@@ -24,7 +24,7 @@ final class Interpreters {
 
     /**
      * Pythons that may start the server, best first: the one given, or that of MEMTRACK_PYTHON, or the environment made
-     * by our installer followed by those on the path.
+     * by our installer followed by those on this machine.
      *
      * @throws DetectorException when the one that was named does not exist, or its name is no path
      */
@@ -38,20 +38,38 @@ final class Interpreters {
         }
         List<Interpreter> found = new ArrayList<>();
         PythonEnvironment.installed(dataFolder).ifPresent(installed -> found.add(installed.interpreter()));
-        found.addAll(onPath(environment));
+        found.addAll(onThisMachine(environment));
         return found;
     }
 
-    /** Pythons on the path, each name once. */
-    static List<Interpreter> onPath(Map<String, String> environment) {
+    /** Pythons on the path, then those in the usual places. */
+    static List<Interpreter> onThisMachine(Map<String, String> environment) {
+        return onThisMachine(environment, UsualFolders.ofThisMachine(environment));
+    }
+
+    static List<Interpreter> onThisMachine(Map<String, String> environment, List<Path> usualFolders) {
         String path = environment.getOrDefault("PATH", environment.getOrDefault("Path", ""));
+        List<Path> pathFolders = Stream.of(path.split(Pattern.quote(File.pathSeparator)))
+                .filter(folder -> !folder.isBlank())
+                .flatMap(folder -> absolute(folder).stream())
+                .toList();
+        List<Interpreter> found = new ArrayList<>(in(pathFolders, "on the path"));
+        in(usualFolders, "in a usual place").stream()
+                .filter(python ->
+                        found.stream().noneMatch(other -> other.command().equals(python.command())))
+                .forEach(found::add);
+        return found;
+    }
+
+    /** Pythons in some folders, each name once. */
+    private static List<Interpreter> in(List<Path> folders, String origin) {
         return NAMES.stream()
-                .flatMap(name -> find(name, path).stream())
+                .flatMap(name -> find(name, folders).stream())
                 .map(file -> new Interpreter(
                         file.getFileName().toString().matches("py(\\.exe)?")
                                 ? List.of(file.toString(), "-3")
                                 : List.of(file.toString()),
-                        "on the path",
+                        origin,
                         false,
                         false))
                 .toList();
@@ -66,19 +84,18 @@ final class Interpreters {
         return new Interpreter(List.of(python.toAbsolutePath().toString()), origin, true, false);
     }
 
-    private static Optional<Path> find(String name, String path) {
+    private static Optional<Path> find(String name, List<Path> folders) {
         String file = windows() ? name + ".exe" : name;
-        return Stream.of(path.split(Pattern.quote(File.pathSeparator)))
-                .filter(folder -> !folder.isBlank())
-                .flatMap(folder -> resolve(folder, file).stream())
+        return folders.stream()
+                .map(folder -> folder.resolve(file))
                 .filter(Files::isExecutable)
                 .filter(Files::isRegularFile)
                 .findFirst();
     }
 
-    private static Optional<Path> resolve(String folder, String file) {
+    private static Optional<Path> absolute(String folder) {
         try {
-            return Optional.of(Path.of(folder, file).toAbsolutePath());
+            return Optional.of(Path.of(folder).toAbsolutePath());
         } catch (InvalidPathException e) {
             return Optional.empty();
         }

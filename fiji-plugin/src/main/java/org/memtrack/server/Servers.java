@@ -25,7 +25,7 @@ public final class Servers {
 
     /**
      * A server that is ready: the one at the address given, or the running one of our own, or a new one started with the
-     * interpreter given, or that of MEMTRACK_PYTHON, or the environment made by our installer, or python3 on the path.
+     * interpreter given, or that of MEMTRACK_PYTHON, or the environment made by our installer, or a Python of this machine.
      * A running one of another interpreter than the one asked for is not used.
      *
      * @param settings where to look

@@ -62,6 +62,36 @@ class InterpretersTest {
     }
 
     @Test
+    void pythonsInTheirUsualPlacesComeAfterThePathNewestFirst() throws Exception {
+        Path root = folder.resolve("root");
+        String framework = "root/Library/Frameworks/Python.framework/Versions/";
+        Path old = program(framework + "3.9/bin", "python3.9");
+        program(framework + "3.9/bin", "python3");
+        Path twelve = program(framework + "3.12/bin", "python3.12");
+        Path newest = program(framework + "3.12/bin", "python3");
+        Path homebrew = program("root/opt/homebrew/bin", "python3.13");
+        Map<String, String> finder = Map.of("PATH", onPath.getParent().toString());
+        assertThat(commands(Interpreters.onThisMachine(finder, UsualFolders.of("Mac OS X", root, finder))))
+                .containsExactly(onPath, newest, homebrew, twelve)
+                .doesNotContain(old);
+
+        Path windows = program("local/Programs/Python/Python313", "python");
+        program("local/Programs/Python/Python39", "python");
+        program("local/Programs/Python/Python314-32", "python");
+        Map<String, String> startMenu =
+                Map.of("LOCALAPPDATA", folder.resolve("local").toString());
+        assertThat(commands(Interpreters.onThisMachine(startMenu, UsualFolders.of("Windows 11", root, startMenu))))
+                .containsExactly(windows);
+        assertThat(UsualFolders.of("Linux", root, startMenu)).isEmpty();
+    }
+
+    @Test
+    void aPythonOnThePathIsNotFoundASecondTime() {
+        assertThat(Interpreters.onThisMachine(environment, List.of(onPath.getParent())))
+                .hasSize(1);
+    }
+
+    @Test
     void aVariableThatHoldsNoPathIsOneSentence() {
         assertThatThrownBy(() -> Interpreters.candidates(null, Map.of("MEMTRACK_PYTHON", "py\0thon"), folder))
                 .isInstanceOf(DetectorException.class)

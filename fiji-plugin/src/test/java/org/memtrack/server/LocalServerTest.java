@@ -120,7 +120,7 @@ class LocalServerTest {
     private Interpreter script(String code) throws Exception {
         Path file = Files.createTempFile(folder, "server", ".py");
         Files.writeString(file, code);
-        String python = Interpreters.onPath(System.getenv()).stream()
+        String python = Interpreters.onThisMachine(System.getenv()).stream()
                 .map(found -> found.command().get(0))
                 .findFirst()
                 .orElseThrow(() -> new AssertionError("These tests need Python on the path"));

@@ -39,7 +39,7 @@ class WatchedProcessTest {
     }
 
     private static Interpreter python() {
-        return Interpreters.onPath(System.getenv()).get(0);
+        return Interpreters.onThisMachine(System.getenv()).get(0);
     }
 
     private static Progress cancelledOnce(Path exists) {
