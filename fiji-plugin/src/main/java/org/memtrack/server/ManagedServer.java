@@ -46,7 +46,8 @@ final class ManagedServer {
                         "Another run is using the server of %s: wait for it, or use the same Python."
                                 .formatted(current.server.interpreter().describe()));
             }
-            if (current == null || !wanted || !answers(current)) {
+            // One in use may be too busy to answer, and its run would fail with it.
+            if (current == null || !wanted || !inUse(current) && !answers(current)) {
                 current = start(candidates, progress);
             }
             return use(current);

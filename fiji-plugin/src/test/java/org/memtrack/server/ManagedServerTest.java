@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import io.grpc.InsecureServerCredentials;
+import io.grpc.Server;
+import io.grpc.Status;
+import io.grpc.okhttp.OkHttpServerBuilder;
+import io.grpc.stub.StreamObserver;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.atomic.AtomicBoolean;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
+import org.memtrack.v1.GetServerInfoRequest;
+import org.memtrack.v1.GetServerInfoResponse;
+import org.memtrack.v1.ServerServiceGrpc;
+
+/** Scripts in place of the server's process. */
+@Timeout(60)
+class ManagedServerTest {
+    @TempDir
+    Path folder;
+
+    private final ManagedServer managed = new ManagedServer(Duration.ofMinutes(1));
+
+    @Test
+    void aServerInUseIsNotReplacedWhenItIsTooBusyToAnswer() throws Exception {
+        AtomicBoolean busy = new AtomicBoolean();
+        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
+                .addService(answering(busy))
+                .build()
+                .start();
+        List<Interpreter> python = List.of(script("""
+                import json, sys
+                print(json.dumps({"protocol": 1, "port": %d, "pid": 1, "version": "9.9.9"}), flush=True)
+                sys.stdin.read()
+                """.formatted(server.getPort())));
+        try (ServerConnection first = managed.acquire(python, Progress.NONE)) {
+            busy.set(true);
+            try (ServerConnection second = managed.acquire(python, Progress.NONE)) {
+                assertThat(second.client()).isSameAs(first.client());
+            }
+            busy.set(false);
+            assertThat(first.client().info(false).version()).isEqualTo("9.9.9");
+        } finally {
+            managed.end();
+            server.shutdownNow();
+        }
+    }
+
+    private static ServerServiceGrpc.ServerServiceImplBase answering(AtomicBoolean busy) {
+        return new ServerServiceGrpc.ServerServiceImplBase() {
+            @Override
+            public void getServerInfo(GetServerInfoRequest request, StreamObserver<GetServerInfoResponse> answer) {
+                if (busy.get()) {
+                    answer.onError(Status.DEADLINE_EXCEEDED.asRuntimeException());
+                } else {
+                    answer.onNext(GetServerInfoResponse.newBuilder()
+                            .setProtocol(1)
+                            .setVersion("9.9.9")
+                            .build());
+                    answer.onCompleted();
+                }
+            }
+        };
+    }
+
+    private Interpreter script(String code) throws Exception {
+        Path file = Files.writeString(Files.createTempFile(folder, "server", ".py"), code);
+        String python =
+                Interpreters.onThisMachine(System.getenv()).get(0).command().get(0);
+        return new Interpreter(List.of(python, file.toString()), "as given", true, false);
+    }
+}
