@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
+import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.Executors;
 import java.util.concurrent.ScheduledExecutorService;
@@ -28,6 +29,7 @@ final class ManagedServer {
     });
     private @Nullable Running running;
     private @Nullable ScheduledFuture<?> ending;
+    private volatile boolean closing;
 
     private record Running(LocalServer server, DetectionClient client, ServerInfo info, List<Object> users) {}
 
@@ -56,6 +58,12 @@ final class ManagedServer {
         }
     }
 
+    /** Ends the server for good, also one that is starting. */
+    void close() {
+        closing = true;
+        end();
+    }
+
     /** Ends the server, also under its users. */
     void end() {
         lock.lock();
@@ -76,7 +84,7 @@ final class ManagedServer {
         List<String> reasons = new ArrayList<>();
         for (Interpreter candidate : candidates) {
             try {
-                LocalServer server = LocalServer.start(candidate, progress);
+                LocalServer server = LocalServer.start(candidate, untilClosing(progress));
                 running = connect(server);
                 return running;
             } catch (StartException e) {
@@ -89,6 +97,21 @@ final class ManagedServer {
                         : "No server could be started, since %s: run Plugins > Tracking > MEMTrack > MEMTrack Install Python"
                                         .formatted(String.join("; ", reasons))
                                 + " Environment, or name a Python that has MEMTrack.");
+    }
+
+    /** Cancelled by the end of ImageJ, too. */
+    private Progress untilClosing(Progress progress) {
+        return new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
+                progress.report(stage, fraction, secondsLeft, message);
+            }
+
+            @Override
+            public boolean cancelled() {
+                return closing || progress.cancelled();
+            }
+        };
     }
 
     /** What to do when there is no Python to start a server with. */

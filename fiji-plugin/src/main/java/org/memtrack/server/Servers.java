@@ -18,7 +18,7 @@ public final class Servers {
     private static final ManagedServer MANAGED = new ManagedServer(Duration.ofMinutes(10));
 
     static {
-        Runtime.getRuntime().addShutdownHook(new Thread(Servers::end, "memtrack-server-end"));
+        Runtime.getRuntime().addShutdownHook(new Thread(MANAGED::close, "memtrack-server-end"));
     }
 
     private Servers() {}

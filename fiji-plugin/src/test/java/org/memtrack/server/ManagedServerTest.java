@@ -2,6 +2,7 @@
 package org.memtrack.server;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import io.grpc.InsecureServerCredentials;
 import io.grpc.Server;
@@ -12,6 +13,9 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.concurrent.CancellationException;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicBoolean;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -52,6 +56,19 @@ class ManagedServerTest {
             managed.end();
             server.shutdownNow();
         }
+    }
+
+    @Test
+    void theEndOfImageJDoesNotWaitForAServerThatIsStarting() throws Exception {
+        Path started = folder.resolve("started");
+        Interpreter silent = script("import sys; open(r'%s', 'w').close(); sys.stdin.read()".formatted(started));
+        CompletableFuture<ServerConnection> run =
+                CompletableFuture.supplyAsync(() -> managed.acquire(List.of(silent), Progress.NONE));
+        while (!Files.exists(started)) {
+            Thread.sleep(10);
+        }
+        managed.close();
+        assertThatThrownBy(() -> run.get(1, TimeUnit.SECONDS)).hasCauseInstanceOf(CancellationException.class);
     }
 
     private static ServerServiceGrpc.ServerServiceImplBase answering(AtomicBoolean busy) {
