@@ -5,16 +5,25 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Set;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 import java.util.function.Consumer;
 import org.memtrack.client.Progress;
 
-/** Runs a program to its end, or ends it and its children when the user cancels. */
+/** Runs a program to its end, or ends it and its children when the user cancels or quits ImageJ. */
 final class WatchedProcess {
+    private static final Set<Process> RUNNING = ConcurrentHashMap.newKeySet();
+
+    static {
+        Runtime.getRuntime()
+                .addShutdownHook(new Thread(() -> RUNNING.forEach(WatchedProcess::kill), "memtrack-programs-end"));
+    }
+
     private WatchedProcess() {}
 
     /**
@@ -40,6 +49,7 @@ final class WatchedProcess {
         Tail output = new Tail("memtrack-output", process.getInputStream(), each);
         long end = System.nanoTime() + limit.toNanos();
         try {
+            RUNNING.add(process);
             while (!process.waitFor(100, TimeUnit.MILLISECONDS)) {
                 progress.throwIfCancelled();
                 if (System.nanoTime() > end) {
@@ -53,6 +63,7 @@ final class WatchedProcess {
             throw new CancellationException("Interrupted.");
         } finally {
             kill(process);
+            RUNNING.remove(process);
         }
     }
 

@@ -4,9 +4,13 @@ package org.memtrack.server;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import org.junit.jupiter.api.Test;
@@ -17,25 +21,44 @@ import org.memtrack.client.Progress;
 /** Real processes of the Python on the path. */
 @Timeout(60)
 class WatchedProcessTest {
+    /** Leaves its number in a file and works on; it takes a while to give its memory back. */
+    private static final String WORK = """
+            import os, sys, time
+            memory = b"x" * 300_000_000
+            open(sys.argv[1] + ".new", "w").write(str(os.getpid()))
+            os.rename(sys.argv[1] + ".new", sys.argv[1])
+            time.sleep(60)
+            """;
+
     @TempDir
     Path folder;
 
     @Test
     void aCancelledProgramHasEndedWithTheChildrenItStarted() throws Exception {
         Path pid = folder.resolve("pid");
-        String child = """
-                import os, sys, time
-                memory = b"x" * 300_000_000
-                open(sys.argv[1] + ".new", "w").write(str(os.getpid()))
-                os.rename(sys.argv[1] + ".new", sys.argv[1])
-                time.sleep(60)
-                """;
         String launcher = "import subprocess, sys; subprocess.run([sys.executable, '-c', sys.argv[1], sys.argv[2]])";
-        ProcessBuilder program = python().process("-c", launcher, child, pid.toString());
+        ProcessBuilder program = python().process("-c", launcher, WORK, pid.toString());
         assertThatThrownBy(() -> WatchedProcess.run(program, cancelledOnce(pid), line -> {}, Duration.ofMinutes(1)))
                 .isInstanceOf(CancellationException.class);
-        assertThat(ProcessHandle.of(Long.parseLong(Files.readString(pid))).filter(ProcessHandle::isAlive))
-                .isEmpty();
+        assertThat(running(pid)).isEmpty();
+    }
+
+    @Test
+    void aProgramEndsWithImageJ() throws Exception {
+        Path pid = folder.resolve("pid");
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "-cp",
+                System.getProperty("java.class.path"),
+                QuittingProgram.class.getName()));
+        command.addAll(python().process("-c", WORK, pid.toString()).command());
+        Process imageJ = new ProcessBuilder(command).inheritIO().start();
+        assertThat(imageJ.waitFor()).isZero();
+        assertThat(running(pid)).isEmpty();
+    }
+
+    private static Optional<ProcessHandle> running(Path pid) throws IOException {
+        return ProcessHandle.of(Long.parseLong(Files.readString(pid))).filter(ProcessHandle::isAlive);
     }
 
     private static Interpreter python() {
