@@ -5,6 +5,7 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
+import java.util.concurrent.TimeoutException;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
@@ -48,7 +49,7 @@ final class BasePython {
         WatchedProcess.End end;
         try {
             end = WatchedProcess.run(candidate.process("-c", QUESTION), progress, line -> {}, Duration.ofMinutes(1));
-        } catch (IOException e) {
+        } catch (IOException | TimeoutException e) {
             return "cannot be run: " + e.getMessage();
         }
         String[] said = end.lines().stream()

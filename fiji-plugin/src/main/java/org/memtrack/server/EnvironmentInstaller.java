@@ -18,6 +18,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.TimeoutException;
 import java.util.concurrent.atomic.AtomicInteger;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.client.Progress;
@@ -184,6 +185,11 @@ public final class EnvironmentInstaller {
         WatchedProcess.End ended;
         try {
             ended = WatchedProcess.run(builder, polled, said::add, LIMIT);
+        } catch (TimeoutException e) {
+            throw new DetectorException(
+                    "Python %s while %s: check the network and run this command again; all it said is in %s."
+                            .formatted(e.getMessage(), doing, log()),
+                    e);
         } finally {
             Files.write(log(), said, StandardCharsets.UTF_8, StandardOpenOption.CREATE, StandardOpenOption.APPEND);
         }

@@ -6,6 +6,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.TimeoutException;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
@@ -22,32 +23,44 @@ public final class PythonCommand {
      * @param arguments the command's name first
      * @param progress asked whether to go on
      * @return the lines it printed last
-     * @throws DetectorException when there is no Python that has MEMTrack, or the command fails; the message is its last line
+     * @throws DetectorException when there is no Python that has MEMTrack, or the command does not end within half an
+     *     hour, or it fails; then the message is its last line
      * @throws CancellationException when progress was cancelled
      */
     public static List<String> run(List<String> arguments, Progress progress) {
-        String last = "No Python was found";
-        for (Interpreter python : Interpreters.candidates(null, System.getenv(), DataFolder.path())) {
-            List<String> command = new ArrayList<>(List.of("-m", "memtrack"));
-            command.addAll(arguments);
+        return run(arguments, progress, Interpreters.candidates(null, System.getenv(), DataFolder.path()), LIMIT);
+    }
+
+    static List<String> run(List<String> arguments, Progress progress, List<Interpreter> candidates, Duration limit) {
+        List<String> command = new ArrayList<>(List.of("-m", "memtrack"));
+        command.addAll(arguments);
+        List<String> reasons = new ArrayList<>();
+        for (Interpreter python : candidates) {
             try {
                 WatchedProcess.End end =
-                        WatchedProcess.run(python.process(command.toArray(String[]::new)), progress, line -> {}, LIMIT);
+                        WatchedProcess.run(python.process(command.toArray(String[]::new)), progress, line -> {}, limit);
                 if (end.exitCode() == 0) {
                     return end.lines();
                 }
-                last = end.lines().isEmpty()
+                String last = end.lines().isEmpty()
                         ? "it ended with code " + end.exitCode()
                         : end.lines().get(end.lines().size() - 1);
                 if (!last.contains(NOT_INSTALLED)) {
                     throw new DetectorException("memtrack %s failed: %s".formatted(arguments.get(0), last));
                 }
+                reasons.add(last);
             } catch (IOException e) {
-                last = "%s cannot be run: %s".formatted(python.describe(), e.getMessage());
+                reasons.add("%s cannot be run: %s".formatted(python.describe(), e.getMessage()));
+            } catch (TimeoutException e) {
+                throw new DetectorException(
+                        "memtrack %s %s and was stopped: close other programs and try again, or take a shorter film."
+                                .formatted(arguments.get(0), e.getMessage()),
+                        e);
             }
         }
+        // The first is the likeliest to be meant.
         throw new DetectorException(
                 ("No Python has MEMTrack (%s): run Plugins > Tracking > MEMTrack > MEMTrack Install Python Environment.")
-                        .formatted(last));
+                        .formatted(reasons.isEmpty() ? "No Python was found" : reasons.get(0)));
     }
 }

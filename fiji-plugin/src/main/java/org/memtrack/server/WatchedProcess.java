@@ -39,11 +39,12 @@ final class WatchedProcess {
      *
      * @param each told every line, in a thread of its own
      * @param limit after which the program is ended
-     * @throws IOException when it cannot be started, or did not end in time
+     * @throws IOException when it cannot be started
+     * @throws TimeoutException when it did not end in time; the message is a clause that says so
      * @throws CancellationException when progress was cancelled; the program and its children have ended
      */
     static End run(ProcessBuilder builder, Progress progress, Consumer<String> each, Duration limit)
-            throws IOException {
+            throws IOException, TimeoutException {
         Process process = builder.redirectErrorStream(true).start();
         process.getOutputStream().close();
         Tail output = new Tail("memtrack-output", process.getInputStream(), each);
@@ -53,7 +54,7 @@ final class WatchedProcess {
             while (!process.waitFor(100, TimeUnit.MILLISECONDS)) {
                 progress.throwIfCancelled();
                 if (System.nanoTime() > end) {
-                    throw new IOException("did not end within %d min".formatted(limit.toMinutes()));
+                    throw new TimeoutException("did not end within %d min".formatted(limit.toMinutes()));
                 }
             }
             output.finish();

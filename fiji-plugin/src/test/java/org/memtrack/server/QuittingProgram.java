@@ -5,6 +5,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.concurrent.TimeoutException;
 import org.memtrack.client.Progress;
 
 /** Quits, as the user may quit ImageJ, while a program is at work. */
@@ -22,7 +23,7 @@ final class QuittingProgram {
     private static void work(String[] command) {
         try {
             WatchedProcess.run(new ProcessBuilder(command), Progress.NONE, line -> {}, Duration.ofMinutes(1));
-        } catch (IOException e) {
+        } catch (IOException | TimeoutException e) {
             throw new IllegalStateException(e);
         }
     }

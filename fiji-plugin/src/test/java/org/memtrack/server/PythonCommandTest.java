@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.server;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
+
+/** Scripts in place of the Python package. */
+@Timeout(60)
+class PythonCommandTest {
+    @TempDir
+    Path folder;
+
+    @Test
+    void aCommandThatDoesNotEndIsNotTriedWithAnotherPython() throws Exception {
+        Path other = folder.resolve("other");
+        List<Interpreter> pythons =
+                List.of(script("import time; time.sleep(60)"), script("open(r'%s', 'w').close()".formatted(other)));
+        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofSeconds(1)))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("memtrack evaluate did not end within");
+        assertThat(other).doesNotExist();
+    }
+
+    @Test
+    void theFirstReasonIsTold() throws Exception {
+        List<Interpreter> pythons = List.of(
+                new Interpreter(List.of(folder.resolve("gone").toString()), "installed by MEMTrack", false, true),
+                script("import sys; sys.exit('No module named memtrack')"));
+        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofMinutes(1)))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("No Python has MEMTrack")
+                .hasMessageContaining("gone (installed by MEMTrack) cannot be run");
+    }
+
+    private Interpreter script(String code) throws Exception {
+        Path file = Files.writeString(Files.createTempFile(folder, "memtrack", ".py"), code);
+        String python =
+                Interpreters.onThisMachine(System.getenv()).get(0).command().get(0);
+        return new Interpreter(List.of(python, file.toString()), "on the path", false, false);
+    }
+}
