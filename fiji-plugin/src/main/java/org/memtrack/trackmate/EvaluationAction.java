@@ -3,6 +3,7 @@ package org.memtrack.trackmate;
 
 import fiji.plugin.trackmate.action.TrackMateAction;
 import fiji.plugin.trackmate.action.TrackMateActionFactory;
+import ij.IJ;
 import ij.io.OpenDialog;
 import ij.plugin.BrowserLauncher;
 import java.awt.GraphicsEnvironment;
@@ -63,10 +64,16 @@ final class EvaluationAction extends ModelAction {
         if (file == null) {
             throw new CancellationException();
         }
-        say("Comparing …");
-        Path truth = Path.of(file);
+        compare(tracks, Path.of(file));
+    }
+
+    /** Compares with a truth and says what was found; Escape stops it, for TrackMate has no button to stop an action with. */
+    void compare(ModelTracks tracks, Path truth) throws IOException {
         Path out = truth.resolveSibling(truth.getFileName() + " evaluation");
-        evaluate(tracks, truth, out).forEach(this::say);
+        say("Comparing … (Esc in a window of ImageJ stops it.)");
+        IJ.resetEscape();
+        evaluate(tracks, truth, out, new LoggerProgress(logger, IJ::escapePressed))
+                .forEach(this::say);
         say("The whole comparison: " + out.resolve("evaluation.html"));
         if (!GraphicsEnvironment.isHeadless()) {
             BrowserLauncher.openURL(out.resolve("evaluation.html").toUri().toString());
@@ -78,8 +85,9 @@ final class EvaluationAction extends ModelAction {
      *
      * @param out folder for evaluation.html and evaluation.json; made if missing
      * @return what it found, in sentences
+     * @throws CancellationException when progress was cancelled
      */
-    static List<String> evaluate(ModelTracks tracks, Path truth, Path out) throws IOException {
+    static List<String> evaluate(ModelTracks tracks, Path truth, Path out, Progress progress) throws IOException {
         Path folder = Files.createTempDirectory("memtrack-evaluation");
         Path table = folder.resolve("tracks.csv");
         try {
@@ -98,7 +106,7 @@ final class EvaluationAction extends ModelAction {
             tracks.info()
                     .frameIntervalSeconds()
                     .ifPresent(interval -> arguments.addAll(List.of("--frame-interval-s", Double.toString(interval))));
-            PythonCommand.run(arguments, Progress.NONE);
+            PythonCommand.run(arguments, progress);
             return EvaluationSummary.of(out.resolve("evaluation.json"));
         } finally {
             Files.deleteIfExists(table);

@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
+import fiji.plugin.trackmate.Logger;
 import fiji.plugin.trackmate.Model;
 import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.TrackMate;
@@ -13,12 +14,15 @@ import ij.IJ;
 import ij.ImagePlus;
 import ij.gui.Plot;
 import ij.measure.ResultsTable;
+import java.awt.event.KeyEvent;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.concurrent.CancellationException;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.formats.ImportedTracks;
 import org.memtrack.formats.TrackCsv;
@@ -110,7 +114,7 @@ class ActionsTest {
         ModelTracks tracks = ModelTracks.of(tracked());
         Path truth = folder.resolve("truth with space ü.csv");
         TrackCsv.write(truth, tracks.tracked());
-        List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"));
+        List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"), Progress.NONE);
         assertThat(lines)
                 .contains(
                         "Precision 1.000, recall 1.000, F1 1.000.",
@@ -120,9 +124,34 @@ class ActionsTest {
     }
 
     @Test
+    void escapeStopsAComparison(@TempDir Path folder) throws Exception {
+        ModelTracks tracks = ModelTracks.of(tracked());
+        Path truth = folder.resolve("truth.csv");
+        TrackCsv.write(truth, tracks.tracked());
+        EvaluationAction action = new EvaluationAction();
+        action.setLogger(new Logger.StringBuilderLogger());
+        Thread user = new Thread(() -> {
+            while (!Thread.interrupted()) {
+                IJ.setKeyDown(KeyEvent.VK_ESCAPE);
+                Thread.yield();
+            }
+        });
+        user.start();
+        try {
+            assertThatThrownBy(() -> action.compare(tracks, truth)).isInstanceOf(CancellationException.class);
+        } finally {
+            user.interrupt();
+            user.join();
+            IJ.resetEscape();
+        }
+        assertThat(folder.resolve("truth.csv evaluation")).doesNotExist();
+    }
+
+    @Test
     void aMissingTruthIsOneSentence(@TempDir Path folder) {
         ModelTracks tracks = ModelTracks.of(tracked());
-        assertThatThrownBy(() -> EvaluationAction.evaluate(tracks, folder.resolve("none.mdf"), folder.resolve("out")))
+        assertThatThrownBy(() -> EvaluationAction.evaluate(
+                        tracks, folder.resolve("none.mdf"), folder.resolve("out"), Progress.NONE))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("none.mdf")
                 .hasMessageNotContaining("Traceback");
