@@ -16,7 +16,11 @@ public enum SpotFeature {
     /** Score of the detection; an interpolated spot has none. */
     SCORE("MEMTRACK_SCORE", "Detection score", "Score", "QUALITY", false),
     /** Class of motility of the track: 0 none, 1 low, 2 medium, 3 high; missing when it is not known. */
-    MOTILITY("MEMTRACK_MOTILITY", "Motility class", "Motility", "NONE", true);
+    MOTILITY("MEMTRACK_MOTILITY", "Motility class", "Motility", "NONE", true),
+    /** How far the scene stands right of its place in the first frame, calibrated; missing when it is not known to move. */
+    DRIFT_X("MEMTRACK_DRIFT_X", "Stage drift X", "Drift X", "LENGTH", false),
+    /** How far the scene stands below its place in the first frame, likewise. */
+    DRIFT_Y("MEMTRACK_DRIFT_Y", "Stage drift Y", "Drift Y", "LENGTH", false);
 
     private final String key;
     private final String fullName;

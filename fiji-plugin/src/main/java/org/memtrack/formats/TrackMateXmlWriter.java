@@ -15,6 +15,7 @@ import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.motility.TrackMotility;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.FilmInfo;
@@ -33,6 +34,7 @@ final class TrackMateXmlWriter {
     private final FilmInfo film;
     private final double pixelSize;
     private final double interval;
+    private final StageDrift drift;
     private final Map<Integer, List<Spot>> spotsOfFrame = new TreeMap<>();
     private final List<List<Spot>> spotsOfTrack = new ArrayList<>();
     private int spotCount;
@@ -45,6 +47,7 @@ final class TrackMateXmlWriter {
         this.film = tracked.film();
         this.pixelSize = film.pixelSizeMicrometres().orElse(1);
         this.interval = film.frameIntervalSeconds().orElse(1);
+        this.drift = new StageDrift(detections);
         Set<Detection> linked = Collections.newSetFromMap(new IdentityHashMap<>());
         for (int i = 0; i < tracked.tracks().size(); i++) {
             List<Spot> spots = new ArrayList<>();
@@ -135,7 +138,11 @@ final class TrackMateXmlWriter {
                 SpotFeature.BOX_WIDTH.key(),
                 Double.toString(box.width() * pixelSize),
                 SpotFeature.BOX_HEIGHT.key(),
-                Double.toString(box.height() * pixelSize)));
+                Double.toString(box.height() * pixelSize),
+                SpotFeature.DRIFT_X.key(),
+                Double.toString(drift.x(point.frame()) * pixelSize),
+                SpotFeature.DRIFT_Y.key(),
+                Double.toString(drift.y(point.frame()) * pixelSize)));
         if (detection != null) {
             attributes.addAll(List.of(
                     SpotFeature.LEVEL.key(), Integer.toString(SpotFeature.codeOf(detection.level())),

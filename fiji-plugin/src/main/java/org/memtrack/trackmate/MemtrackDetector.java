@@ -110,7 +110,9 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
         SpotCollection collection = new SpotCollection();
         for (FrameDetections frame : result.frames()) {
             for (Detection detection : frame.detections()) {
-                collection.add(spotOf(detection, film), film.film().firstFrame() + frame.frame());
+                Spot spot = spotOf(detection, film);
+                SpotDrift.put(spot, frame.driftX() * film.pixelWidth(), frame.driftY() * film.pixelHeight());
+                collection.add(spot, film.film().firstFrame() + frame.frame());
             }
         }
         return collection;

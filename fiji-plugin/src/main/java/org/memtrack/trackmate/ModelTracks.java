@@ -15,6 +15,7 @@ import java.util.TreeSet;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.DetectorException;
+import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.SpotFeature;
 import org.memtrack.formats.TrackedFilm;
 import org.memtrack.tracking.GapFilling;
@@ -73,7 +74,8 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
         if (!branching.isEmpty()) {
             notes.add("Left out, since they split or merge: %s.".formatted(String.join(", ", branching)));
         }
-        return new ModelTracks(TrackedFilm.of(film.info(), tracks, List.of()), film, names, notes);
+        List<FrameDetections> drift = SpotDrift.of(trackmate.getModel().getSpots(), settings.dx, settings.dy);
+        return new ModelTracks(TrackedFilm.of(film.info(), tracks, drift), film, names, notes);
     }
 
     /** As the tracks were made: a film that was opened from a TrackMate file may have lost its calibration and axes. */

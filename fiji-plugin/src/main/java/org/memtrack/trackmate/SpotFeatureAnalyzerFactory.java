@@ -99,7 +99,8 @@ public final class SpotFeatureAnalyzerFactory<T extends RealType<T> & NativeType
 
     @Override
     public String getInfoText() {
-        return "Level, score and box of MEMTrack's detector, and whether its tracker interpolated the spot.";
+        return "Level, score and box of MEMTrack's detector, the drift of the stage it saw, and whether its tracker interpolated"
+                + " the spot.";
     }
 
     @Override

@@ -15,6 +15,7 @@ import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.formats.SpotFeature;
 
 /** The observed spots of a collection as detections, in pixels, and the way back. */
@@ -22,6 +23,7 @@ final class SpotFilm {
     private final SpotCollection spots;
     private final double pixelWidth;
     private final double pixelHeight;
+    private final StageDrift drift;
     private final Map<Detection, Spot> spotOf = new IdentityHashMap<>();
     private final List<FrameDetections> frames = new ArrayList<>();
     private final List<Spot> interpolated = new ArrayList<>();
@@ -31,6 +33,7 @@ final class SpotFilm {
         this.spots = spots;
         this.pixelWidth = pixelWidth;
         this.pixelHeight = pixelHeight;
+        this.drift = new StageDrift(SpotDrift.of(spots, pixelWidth, pixelHeight));
     }
 
     /**
@@ -72,7 +75,7 @@ final class SpotFilm {
                 detections.add(detection);
             }
         }
-        frames.add(new FrameDetections(frame, detections));
+        frames.add(new FrameDetections(frame, detections, drift.x(frame), drift.y(frame)));
     }
 
     List<FrameDetections> frames() {
@@ -107,6 +110,7 @@ final class SpotFilm {
         spot.putFeature(SpotFeature.INTERPOLATED.key(), 1.0);
         spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
         spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
+        SpotDrift.put(spot, drift.x(frame) * pixelWidth, drift.y(frame) * pixelHeight);
         return spot;
     }
 }

@@ -11,10 +11,19 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Optional;
+import java.util.OptionalDouble;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.Level;
 import org.memtrack.tracking.Interpolation;
+import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackPoint;
+import org.memtrack.video.FilmInfo;
 
 /** What stands in the files for other programs to read. */
 class WrittenFilesTest {
@@ -106,6 +115,33 @@ class WrittenFilesTest {
         assertThat(text).contains("feature=\"LINK_COST\"").contains("DETECTOR_NAME=\"MANUAL_DETECTOR\"");
         // Without it TrackMate reports errors in the file.
         assertThat(text).contains("<DisplaySettings/>");
+    }
+
+    @Test
+    void trackMateXmlHasTheDriftOfTheStageOnEverySpot() throws IOException {
+        Detection before = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
+        Detection after = new Detection(Box.around(71, 30, 10, 12), 0.9, Level.LOW);
+        List<FrameDetections> frames = List.of(
+                new FrameDetections(3, List.of(before)),
+                new FrameDetections(4, List.of(), 20, -30),
+                new FrameDetections(5, List.of(after), 20, -30));
+        Track track = new Track(
+                0,
+                List.of(
+                        new TrackPoint(3, before.box(), before),
+                        new TrackPoint(4, Box.around(70, 30, 10, 12), null),
+                        new TrackPoint(5, after.box(), after)));
+        FilmInfo film =
+                new FilmInfo("film", Optional.empty(), 100, 80, 6, OptionalDouble.of(0.25), OptionalDouble.of(0.5));
+        Path file = folder.resolve("tracks.xml");
+
+        TrackMateXml.write(file, TrackedFilm.of(film, List.of(track), frames), frames);
+
+        assertThat(Files.readString(file).lines().filter(line -> line.contains("<Spot ")))
+                .satisfiesExactly(
+                        spot -> assertThat(spot).contains("DRIFT_X=\"0.0\"", "DRIFT_Y=\"0.0\""),
+                        spot -> assertThat(spot).contains("DRIFT_X=\"5.0\"", "DRIFT_Y=\"-7.5\""),
+                        spot -> assertThat(spot).contains("DRIFT_X=\"5.0\"", "DRIFT_Y=\"-7.5\""));
     }
 
     @Test
