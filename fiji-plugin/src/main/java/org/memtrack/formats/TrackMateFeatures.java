@@ -17,7 +17,7 @@ final class TrackMateFeatures {
 
     private TrackMateFeatures() {}
 
-    static void declare(IndentedXml xml) throws IOException {
+    static void declare(IndentedXml xml, TrackedFilm tracked) throws IOException {
         xml.start("FeatureDeclarations");
         xml.start("SpotFeatures");
         declare(xml, "QUALITY", "Quality", "Quality", "QUALITY", false);
@@ -53,7 +53,7 @@ final class TrackMateFeatures {
         declare(xml, MOTILITY, "Motility class (0 none, 1 low, 2 medium, 3 high)", "Motility", "NONE", true);
         declare(xml, DIFFUSIVITY, "Peak diffusivity (um^2/s)", "Peak D", "NONE", false);
         declare(xml, SPEED, "Mean speed frame to frame", "Mean speed", "VELOCITY", false);
-        declare(xml, LAG_SPEED, "Mean speed over 0.1 s", "Lag speed", "VELOCITY", false);
+        declare(xml, LAG_SPEED, "Mean speed over " + tracked.speedLag(), "Lag speed", "VELOCITY", false);
         xml.end();
         xml.end();
     }

@@ -82,7 +82,7 @@ final class TrackMateXmlWriter {
                 film.pixelSizeMicrometres().isPresent() ? "micron" : "pixel",
                 "timeunits",
                 film.frameIntervalSeconds().isPresent() ? "sec" : "frame");
-        TrackMateFeatures.declare(xml);
+        TrackMateFeatures.declare(xml, tracked);
         writeSpots(xml);
         writeTracks(xml);
         xml.end();

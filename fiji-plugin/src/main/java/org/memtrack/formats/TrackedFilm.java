@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.formats;
 
+import java.math.BigDecimal;
+import java.math.MathContext;
 import java.util.List;
+import java.util.OptionalDouble;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.motility.MotilityAnalysis;
 import org.memtrack.motility.TrackMotility;
@@ -32,5 +35,21 @@ public record TrackedFilm(FilmInfo film, List<Track> tracks, List<TrackMotility>
      */
     public static TrackedFilm of(FilmInfo film, List<Track> tracks, List<FrameDetections> frames) {
         return new TrackedFilm(film, tracks, MotilityAnalysis.analyse(film, tracks, frames));
+    }
+
+    /** What the lag speeds are taken over, for the user: a whole number of frames, in seconds where the film tells them. */
+    public String speedLag() {
+        if (motility.isEmpty()) {
+            return "a lag";
+        }
+        int frames = motility.get(0).lagFrames();
+        OptionalDouble interval = film.frameIntervalSeconds();
+        return interval.isPresent()
+                ? new BigDecimal(frames * interval.getAsDouble())
+                                .round(new MathContext(3))
+                                .stripTrailingZeros()
+                                .toPlainString()
+                        + " s"
+                : frames + " frames";
     }
 }

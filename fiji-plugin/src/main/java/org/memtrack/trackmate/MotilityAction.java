@@ -101,7 +101,7 @@ final class MotilityAction extends ModelAction {
                         .toArray();
         Plot plot = new Plot(
                 "Speeds in " + tracks.info().title(),
-                calibrated ? "speed over 0.1 s (um/s)" : "speed (px/frame)",
+                calibrated ? "speed over %s (um/s)".formatted(tracks.tracked().speedLag()) : "speed (px/frame)",
                 "tracks");
         plot.setColor("black", "lightgray");
         plot.addHistogram(speeds);

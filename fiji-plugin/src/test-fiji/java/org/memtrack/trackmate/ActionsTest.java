@@ -67,6 +67,9 @@ class ActionsTest {
         }
         assertThat(table.getValue("Interpolated", 0) + table.getValue("Interpolated", 1)).isEqualTo(3);
         assertThat(MotilityAction.speeds(ModelTracks.of(tracked())).getSize().width).isPositive();
+        assertThat(MotilityAction.speeds(ModelTracks.of(tracked())).getLabel('x'))
+                .as("one frame is the least lag")
+                .isEqualTo("speed over 0.5 s (um/s)");
         Plot classes = MotilityAction.classes(ModelTracks.of(tracked()));
         assertThat(classes.getLabel('x')).isEqualTo("{none,low,medium,high}");
         assertThat(classes.getPlotObjectStyle(0)).contains("Separated Bars");

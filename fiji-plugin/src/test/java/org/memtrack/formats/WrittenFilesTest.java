@@ -118,6 +118,24 @@ class WrittenFilesTest {
     }
 
     @Test
+    void theLagSpeedIsNamedByItsLag() throws IOException {
+        assertThat(lagSpeedName(OptionalDouble.of(1 / 60.0))).isEqualTo("Mean speed over 0.1 s");
+        assertThat(lagSpeedName(OptionalDouble.of(1 / 26.87))).isEqualTo("Mean speed over 0.112 s");
+        assertThat(lagSpeedName(OptionalDouble.of(1.5))).isEqualTo("Mean speed over 1.5 s");
+        assertThat(lagSpeedName(OptionalDouble.of(20))).isEqualTo("Mean speed over 20 s");
+        assertThat(lagSpeedName(OptionalDouble.empty())).isEqualTo("Mean speed over 6 frames");
+    }
+
+    private String lagSpeedName(OptionalDouble interval) throws IOException {
+        FilmInfo film = new FilmInfo("film", Optional.empty(), 100, 80, 1, OptionalDouble.empty(), interval);
+        Detection detection = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
+        Track track = new Track(0, List.of(new TrackPoint(0, detection.box(), detection)));
+        Path file = folder.resolve("lag.xml");
+        TrackMateXml.write(file, TrackedFilm.of(film, List.of(track), List.of()));
+        return Files.readString(file).replaceFirst("(?s).*\"MEMTRACK_LAG_SPEED\" name=\"([^\"]*)\".*", "$1");
+    }
+
+    @Test
     void trackMateXmlHasTheDriftOfTheStageOnEverySpot() throws IOException {
         Detection before = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
         Detection after = new Detection(Box.around(71, 30, 10, 12), 0.9, Level.LOW);
