@@ -4,7 +4,6 @@ package org.memtrack.trackmate;
 import fiji.plugin.trackmate.action.TrackMateAction;
 import fiji.plugin.trackmate.action.TrackMateActionFactory;
 import ij.ImagePlus;
-import ij.ImageStack;
 import ij.io.DirectoryChooser;
 import ij.io.FileSaver;
 import java.io.IOException;
@@ -95,14 +94,10 @@ final class TrainingDataAction extends ModelAction {
     }
 
     private static void writeFilm(ImageFilm film, Path target) throws IOException {
-        ImagePlus image = film.image();
-        ImageStack frames = new ImageStack(image.getWidth(), image.getHeight());
-        for (int frame = 0; frame < film.info().frameCount(); frame++) {
-            frames.addSlice(image.getStack().getProcessor(film.sliceOf(frame)));
-        }
+        FilmStack frames = new FilmStack(film);
         ImagePlus single = new ImagePlus(target.getFileName().toString(), frames);
         single.setDimensions(1, 1, frames.getSize());
-        single.setCalibration(image.getCalibration());
+        single.setCalibration(film.image().getCalibration());
         Path beside = target.resolveSibling("." + target.getFileName() + ".part.tif");
         try {
             FileSaver saver = new FileSaver(single);

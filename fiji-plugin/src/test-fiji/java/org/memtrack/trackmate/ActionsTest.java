@@ -12,14 +12,21 @@ import fiji.plugin.trackmate.TrackMate;
 import fiji.plugin.trackmate.providers.ActionProvider;
 import ij.IJ;
 import ij.ImagePlus;
+import ij.ImageStack;
+import ij.VirtualStack;
 import ij.gui.Plot;
 import ij.measure.ResultsTable;
+import ij.process.ImageProcessor;
 import java.awt.event.KeyEvent;
 import java.io.IOException;
+import java.lang.ref.WeakReference;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
+import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
+import java.util.function.IntFunction;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.client.Progress;
@@ -27,6 +34,9 @@ import org.memtrack.detection.DetectorException;
 import org.memtrack.formats.ImportedTracks;
 import org.memtrack.formats.TrackCsv;
 import org.memtrack.tracking.TrackPoint;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.FrameAxis;
+import org.memtrack.video.ImageFilm;
 
 class ActionsTest {
     private static TrackMate tracked() {
@@ -98,6 +108,56 @@ class ActionsTest {
         try (var left = Files.list(folder)) {
             assertThat(left).hasSize(3);
         }
+    }
+
+    @Test
+    void aFilmOnDiskIsExportedFrameByFrame(@TempDir Path folder) throws Exception {
+        ImageStack frames = Films.twoSwimmers(20).getStack();
+        List<WeakReference<Object>> read = new ArrayList<>();
+        ModelTracks tracks = onDisk(slice -> {
+            System.gc();
+            assertThat(read.stream().filter(pixels -> pixels.get() != null).count())
+                    .as("frames in memory when slice %d is read", slice)
+                    .isLessThan(5);
+            ImageProcessor frame = frames.getProcessor(slice).convertToShort(false);
+            read.add(new WeakReference<>(frame.getPixels()));
+            return frame;
+        });
+        ImagePlus film =
+                IJ.openImage(TrainingDataAction.export(tracks, folder).get(0).toString());
+        assertThat(read).hasSizeGreaterThanOrEqualTo(20);
+        assertThat(film.getNFrames()).isEqualTo(20);
+        for (int slice = 1; slice <= 20; slice++) {
+            assertThat(film.getStack().getPixels(slice))
+                    .isEqualTo(frames.getProcessor(slice).convertToShort(false).getPixels());
+        }
+    }
+
+    @Test
+    void aFrameThatCannotBeReadIsOneSentence(@TempDir Path folder) throws Exception {
+        ImageStack frames = Films.twoSwimmers(20).getStack();
+        ModelTracks tracks = onDisk(slice -> slice == 7 ? null : frames.getProcessor(slice));
+        assertThatThrownBy(() -> TrainingDataAction.export(tracks, folder))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("Slice 7 of \"two swimmers\" cannot be read");
+        try (var left = Files.list(folder)) {
+            assertThat(left).isEmpty();
+        }
+    }
+
+    /** The tracks of the two swimmers, whose slices are read each time they are wanted. */
+    private static ModelTracks onDisk(IntFunction<ImageProcessor> slices) {
+        ImagePlus film = new ImagePlus("two swimmers", new VirtualStack(100, 80, 20) {
+            @Override
+            public ImageProcessor getProcessor(int slice) {
+                return slices.apply(slice);
+            }
+        });
+        film.setDimensions(1, 1, 20);
+        ModelTracks inMemory = ModelTracks.of(tracked());
+        FilmOptions options = new FilmOptions(FrameAxis.T, 1, 1, 0, OptionalDouble.empty(), OptionalDouble.empty());
+        return new ModelTracks(
+                inMemory.tracked(), new ImageFilm(film, options), inMemory.names(), inMemory.notes());
     }
 
     @Test
