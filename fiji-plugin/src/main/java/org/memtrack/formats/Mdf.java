@@ -17,13 +17,4 @@ public final class Mdf {
     public static void write(Path target, TrackedFilm tracked) throws IOException {
         AtomicFiles.write(target, out -> MdfWriter.write(tracked, out));
     }
-
-    /**
-     * Reads a file of MTrackJ 1.0 to 1.5.1; tracks are numbered from 0 in the order of the file.
-     *
-     * @throws FormatException when the file is not one of these, or is damaged
-     */
-    public static ImportedTracks read(Path source) throws IOException {
-        return MdfReader.read(source);
-    }
 }

@@ -3,21 +3,13 @@ package org.memtrack.formats;
 
 import java.io.IOException;
 import java.nio.file.Path;
-import java.util.ArrayList;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
-import java.util.Map;
-import java.util.Optional;
 import java.util.OptionalDouble;
-import java.util.TreeMap;
 import java.util.stream.IntStream;
 import java.util.stream.Stream;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
-import org.memtrack.detection.Level;
-import org.memtrack.formats.CsvTable.Row;
-import org.memtrack.motility.MotilityClass;
 import org.memtrack.motility.TrackMotility;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
@@ -66,85 +58,6 @@ public final class TrackCsv {
                 detection == null ? "" : word(detection.level()),
                 point.interpolated() ? "1" : "0",
                 motility.motilityClass().map(TrackCsv::word).orElse(""));
-    }
-
-    /**
-     * Reads a table of this class, or the "Raw Data.csv" of the paper's authors (columns TID, PID, x [pixel], y [pixel],
-     * where PID is the frame from 1, and perhaps Subpopulation).
-     *
-     * @throws FormatException when a column is missing or a cell holds what it cannot; the message has the line
-     */
-    public static ImportedTracks read(Path source) throws IOException {
-        CsvTable table = CsvTable.read(source);
-        boolean authors = table.column("tid") >= 0;
-        int frameColumn = authors ? table.requiredColumn("pid") : table.requiredColumn("frame");
-        int trackColumn = table.requiredColumn("track", "tid", "id", "track_id", "particle");
-        int xColumn = table.requiredColumn("x", "x [pixel]", "x_px");
-        int yColumn = table.requiredColumn("y", "y [pixel]", "y_px");
-        int motilityColumn = table.column("motility", "subpopulation");
-        Map<Integer, Map<Integer, ImportedSpot>> spotsOfTrack = new TreeMap<>();
-        Map<Integer, Optional<MotilityClass>> motilityOfTrack = new LinkedHashMap<>();
-        List<ImportedSpot> spots = new ArrayList<>();
-        for (Row row : table.rows()) {
-            int frame = table.requiredInteger(row, frameColumn) - (authors ? 1 : 0);
-            if (frame < 0) {
-                throw table.wrong(row, frameColumn, authors ? "a frame from 1" : "a frame from 0");
-            }
-            ImportedSpot spot = new ImportedSpot(
-                    spots.size(),
-                    frame,
-                    table.requiredNumber(row, xColumn),
-                    table.requiredNumber(row, yColumn),
-                    table.number(row, table.column("width", "width_px")),
-                    table.number(row, table.column("height", "height_px")),
-                    table.number(row, table.column("score", "quality")),
-                    level(table.text(row, table.column("level"))),
-                    isTrue(table.text(row, table.column("interpolated"))),
-                    true);
-            int track = table.requiredInteger(row, trackColumn);
-            spots.add(spot);
-            if (track >= 0) { // -1 is a detection of no track
-                motilityOfTrack.putIfAbsent(track, motility(table.text(row, motilityColumn)));
-                if (spotsOfTrack.computeIfAbsent(track, id -> new TreeMap<>()).put(frame, spot) != null) {
-                    throw table.wrong(row, frameColumn, "a frame that track %d does not have yet".formatted(track));
-                }
-            }
-        }
-        List<ImportedTrack> tracks = new ArrayList<>();
-        spotsOfTrack.forEach(
-                (id, ofTrack) -> tracks.add(ImportedTrack.chain(id, "Track_" + id, List.copyOf(ofTrack.values()))
-                        .withMotility(motilityOfTrack.get(id))));
-        return new ImportedTracks(
-                authors ? "Raw Data.csv" : "CSV",
-                spots,
-                tracks,
-                OptionalDouble.empty(),
-                OptionalDouble.empty(),
-                Optional.empty());
-    }
-
-    private static Level level(String word) {
-        for (Level level : Level.values()) {
-            if (word(level).equals(word.toLowerCase(Locale.ROOT))) {
-                return level;
-            }
-        }
-        return Level.UNSPECIFIED;
-    }
-
-    private static Optional<MotilityClass> motility(String word) {
-        for (MotilityClass motilityClass : MotilityClass.values()) {
-            String name = word(motilityClass);
-            // The authors write the first letter.
-            if (word.equalsIgnoreCase(name) || word.equalsIgnoreCase(name.substring(0, 1))) {
-                return Optional.of(motilityClass);
-            }
-        }
-        return Optional.empty();
-    }
-
-    private static boolean isTrue(String word) {
-        return word.equals("1") || word.equalsIgnoreCase("true") || word.equals("1.0");
     }
 
     static String word(Enum<?> value) {

@@ -23,13 +23,4 @@ public final class TrackMateXml {
     public static void write(Path target, TrackedFilm tracked, List<FrameDetections> detections) throws IOException {
         AtomicFiles.write(target, out -> new TrackMateXmlWriter(tracked, detections).write(out));
     }
-
-    /**
-     * Reads a file of TrackMate 2 to 8, or one of its "Export tracks to XML" files.
-     *
-     * @throws FormatException when the file is not one of these, is damaged, or has a document type (TrackMate's have none)
-     */
-    public static ImportedTracks read(Path source) throws IOException {
-        return TrackMateXmlReader.read(source);
-    }
 }

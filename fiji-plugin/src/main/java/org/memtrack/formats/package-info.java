@@ -2,8 +2,8 @@
 /**
  * Files of tracks: TrackMate XML, MTrackJ, CSV, and the provenance beside them.
  *
- * <p>Every writer writes beside its target and then renames, so that nobody sees half a file. Readers throw
- * {@link org.memtrack.formats.FormatException} with one sentence for the user.
+ * <p>Every writer writes beside its target and then renames, so that nobody sees half a file. Reading
+ * throws {@link org.memtrack.formats.FormatException} with one sentence for the user.
  */
 @NullMarked
 package org.memtrack.formats;

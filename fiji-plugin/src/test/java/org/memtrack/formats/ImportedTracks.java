@@ -7,24 +7,28 @@ import java.util.Optional;
 import java.util.OptionalDouble;
 
 /**
- * What a file of tracks holds.
+ * What one of our files holds.
  *
  * @param version format and version as the file names itself, for example "TrackMate 8.0.0"
  * @param spots every spot, also those of no track
  * @param tracks every track
- * @param pixelSizeMicrometres by which coordinates were divided; empty when the file is in pixels or does not say
- * @param frameIntervalSeconds empty when the file does not say
+ * @param pixelSizeMicrometres empty when the file is in pixels
+ * @param frameIntervalSeconds empty when the file is in frames
  * @param image of the film as the file names it
  */
-public record ImportedTracks(
+record ImportedTracks(
         String version,
         List<ImportedSpot> spots,
         List<ImportedTrack> tracks,
         OptionalDouble pixelSizeMicrometres,
         OptionalDouble frameIntervalSeconds,
         Optional<Path> image) {
-    public ImportedTracks {
-        spots = List.copyOf(spots);
-        tracks = List.copyOf(tracks);
+
+    /** From a format that knows neither calibration nor film, nor spots of no track. */
+    static ImportedTracks of(String version, List<ImportedTrack> tracks) {
+        List<ImportedSpot> spots =
+                tracks.stream().flatMap(track -> track.spots().stream()).toList();
+        return new ImportedTracks(
+                version, spots, tracks, OptionalDouble.empty(), OptionalDouble.empty(), Optional.empty());
     }
 }

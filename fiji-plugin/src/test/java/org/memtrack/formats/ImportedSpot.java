@@ -7,18 +7,17 @@ import org.memtrack.detection.Level;
 /**
  * A point of a track as it stands in a file.
  *
- * @param id number in the file, or given by the reader, unique within the file
+ * @param id number in the file
  * @param frame from 0
- * @param x centre, in pixels (in the file's units when it has no pixel size)
- * @param y centre, likewise
+ * @param x centre, in pixels
+ * @param y centre, in pixels
  * @param width of the box, pixels; empty when the file has no size
  * @param height of the box, pixels; empty when the file has no size
  * @param score empty when the file has none
  * @param level {@code UNSPECIFIED} when the file has none
  * @param interpolated whether the file says that no detection stands behind it
- * @param visible whether it passed the file's spot filters
  */
-public record ImportedSpot(
+record ImportedSpot(
         int id,
         int frame,
         double x,
@@ -27,5 +26,4 @@ public record ImportedSpot(
         OptionalDouble height,
         OptionalDouble score,
         Level level,
-        boolean interpolated,
-        boolean visible) {}
+        boolean interpolated) {}
