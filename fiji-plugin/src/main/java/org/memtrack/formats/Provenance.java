@@ -22,6 +22,7 @@ import java.util.Map;
  * @param model name to value: name, version, sha256, engine, thresholds; empty when nothing was detected
  * @param settings name to value: all that was set for this run, defaults included
  * @param counts name to count: what the detector found, what each filter dropped, tracks and points
+ * @param seconds stage of the detection to its wall time
  * @param warnings what the user was told, one sentence each
  */
 public record Provenance(
@@ -31,6 +32,7 @@ public record Provenance(
         Map<String, Object> model,
         Map<String, Object> settings,
         Map<String, Long> counts,
+        Map<String, Double> seconds,
         List<String> warnings) {
 
     private static final Gson GSON = new GsonBuilder()

@@ -35,6 +35,7 @@ public final class Origin {
                 model(result.detection().accepted()),
                 new LinkedHashMap<>(options),
                 counts(result),
+                result.detection().summary().secondsByStage(),
                 warnings);
     }
 

@@ -202,6 +202,7 @@ class WrittenFilesTest {
                 Map.of("name", "default", "thresholds", List.of(0.5, 0.25)),
                 Map.of("maximum_age", 25L),
                 Map.of("tracks", 12L),
+                Map.of("Detecting", 20.25),
                 List.of("No calibration."));
         Path file = folder.resolve("tracks.json");
 
