@@ -119,12 +119,7 @@ final class Messages {
     }
 
     static ModelCard card(org.memtrack.v1.ModelCard message) {
-        return new ModelCard(
-                message.getName(),
-                message.getVersion(),
-                message.getDescription(),
-                message.getFeatureSpec(),
-                message.getSha256());
+        return new ModelCard(message.getName(), message.getVersion(), message.getDescription(), message.getSha256());
     }
 
     /** Name of a stage for the user. */

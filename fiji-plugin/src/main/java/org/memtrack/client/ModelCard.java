@@ -7,7 +7,6 @@ package org.memtrack.client;
  * @param name name, [a-z0-9_.-]{1,64}
  * @param version version, for example "1.0.0"
  * @param description one or two sentences: what it was trained on, what it is for
- * @param featureSpec name and version of the motion features it runs on
  * @param sha256 SHA-256 of the card, which states those of the weights, hexadecimal
  */
-public record ModelCard(String name, String version, String description, String featureSpec, String sha256) {}
+public record ModelCard(String name, String version, String description, String sha256) {}

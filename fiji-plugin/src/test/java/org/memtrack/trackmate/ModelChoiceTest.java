@@ -8,8 +8,8 @@ import org.junit.jupiter.api.Test;
 import org.memtrack.client.ModelCard;
 
 class ModelChoiceTest {
-    private static final ModelCard OTHER = new ModelCard("other", "2", "Finds other things.", "motion 1", "ab12");
-    private static final ModelCard DEFAULT = new ModelCard("default", "5", "Finds bacteria.", "motion 2", "cd34");
+    private static final ModelCard OTHER = new ModelCard("other", "2", "Finds other things.", "ab12");
+    private static final ModelCard DEFAULT = new ModelCard("default", "5", "Finds bacteria.", "cd34");
 
     @Test
     void theCardIsWhatAUserCanUnderstand() {
