@@ -25,8 +25,9 @@ final class Sort {
      * Before the first frame.
      *
      * @param boxEdge typical edge of a box, pixels
+     * @param speed of the film's swimmers, pixels a frame; see {@link MotionModel#swimmers(double, double)}
      */
-    Sort(SortSettings settings, double boxEdge) {
+    Sort(SortSettings settings, double boxEdge, double speed) {
         this.settings = settings;
         switch (settings.association()) {
             case OVERLAP -> {
@@ -34,7 +35,7 @@ final class Sort {
                 associator = new OverlapAssociation(settings.iouGate());
             }
             case MOTION -> {
-                model = MotionModel.swimmers(boxEdge);
+                model = MotionModel.swimmers(boxEdge, speed);
                 associator = new MotionAssociation(model);
             }
             default -> throw new IllegalArgumentException("Unknown: " + settings.association());

@@ -81,10 +81,33 @@ public final class SortTracker {
         return tracks;
     }
 
-    /** Tracklets with as many detections as they need. */
+    /**
+     * Tracklets with as many detections as they need. How fast the swimmers of a film are is known once they are joined: where
+     * that is faster than usual, as in films of few frames a second, they are joined anew.
+     */
     private List<Tracklet> joined(
             List<FrameDetections> frames, SceneView scene, DoubleConsumer progress, BooleanSupplier cancelled) {
-        Sort sort = new Sort(settings, typicalEdge(frames));
+        double edge = typicalEdge(frames);
+        Sort sort = new Sort(settings, edge, MotionModel.USUAL_SPEED);
+        if (settings.association() == Association.MOTION) {
+            step(sort, frames, scene, done -> progress.accept(done / 2), cancelled);
+            double speed = Math.min(SwimmerSpeed.of(sort.tracklets()), edge);
+            if (speed > MotionModel.USUAL_SPEED) {
+                sort = new Sort(settings, edge, speed);
+                step(sort, frames, scene, done -> progress.accept(0.5 + done / 2), cancelled);
+            }
+        } else {
+            step(sort, frames, scene, progress, cancelled);
+        }
+        return sort.tracklets().stream().filter(this::hasHitsEnough).toList();
+    }
+
+    private static void step(
+            Sort sort,
+            List<FrameDetections> frames,
+            SceneView scene,
+            DoubleConsumer progress,
+            BooleanSupplier cancelled) {
         int expected = frames.isEmpty() ? 0 : frames.get(0).frame();
         for (int i = 0; i < frames.size(); i++) {
             FrameDetections frame = frames.get(i);
@@ -99,7 +122,6 @@ public final class SortTracker {
             expected++;
             progress.accept((i + 1.0) / frames.size());
         }
-        return sort.tracklets().stream().filter(this::hasHitsEnough).toList();
     }
 
     private static double typicalEdge(List<FrameDetections> frames) {

@@ -166,7 +166,7 @@ class SortTrackerTest {
         assertThatThrownBy(() -> new SortTracker(SortSettings.DEFAULTS)
                         .track(swimmerSeenIn(0, 1, 2, 3), fractions::add, () -> fractions.size() == 2))
                 .isInstanceOf(CancellationException.class);
-        assertThat(fractions).containsExactly(0.25, 0.5);
+        assertThat(fractions).containsExactly(0.125, 0.25);
     }
 
     @ParameterizedTest
@@ -247,6 +247,18 @@ class SortTrackerTest {
         }
 
         assertThat(motion).isLessThan((int) (0.85 * overlap));
+    }
+
+    @Test
+    void swimmersFasterThanUsualAreJoinedOnceTheirSpeedIsKnown() {
+        RandomWorld.Settings fewFrames = TrackingBenchmark.WORLDS.get("few frames");
+        for (int seed = 0; seed < 3; seed++) {
+            RandomWorld world = RandomWorld.of(fewFrames, seed);
+
+            List<Track> tracks = track(world.frames());
+
+            assertThat(AssociationScore.of(world, tracks).association()).isGreaterThan(0.45);
+        }
     }
 
     private static int switches(RandomWorld world, SortSettings settings) {

@@ -16,6 +16,7 @@ final class TrackingBenchmark {
         WORLDS.put("water", new RandomWorld.Settings(660, 492, 300, 25, 2.3, 0.02, 30, 1, 0.1, 0.01, 0.05, 2));
         WORLDS.put("crowd", new RandomWorld.Settings(660, 492, 300, 120, 1.5, 0.02, 30, 1, 0.15, 0.02, 0.10, 5));
         WORLDS.put("sprinters", new RandomWorld.Settings(660, 492, 300, 40, 6, 0.05, 30, 1, 0.1, 0.01, 0.10, 3));
+        WORLDS.put("few frames", new RandomWorld.Settings(660, 492, 100, 15, 14, 0.05, 30, 1, 0.1, 0.01, 0.10, 1));
         WORLDS.put("small spots", new RandomWorld.Settings(660, 492, 300, 60, 3, 0.03, 8, 0.5, 0.1, 0.02, 0.10, 3));
     }
 
