@@ -92,7 +92,9 @@ public final class Origin {
         counts.put("outside_region", summary.outsideRegion());
         counts.put("detections", summary.kept());
         counts.put("tracks", (long) tracks.size());
-        counts.put("points", tracks.stream().mapToLong(Track::length).sum());
+        counts.put(
+                "points",
+                tracks.stream().mapToLong(track -> track.points().size()).sum());
         counts.put(
                 "interpolated_points",
                 tracks.stream()

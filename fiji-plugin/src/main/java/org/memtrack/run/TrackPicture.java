@@ -51,7 +51,9 @@ public final class TrackPicture {
         for (Track track : tracked.tracks()) {
             graphics.setColor(colour(track.id()));
             drawPath(graphics, track, scale);
-            drawBox(graphics, track, film.firstFrame() + lastFrame, scale);
+            track.points().stream()
+                    .filter(point -> point.frame() == film.firstFrame() + lastFrame)
+                    .forEach(point -> drawBox(graphics, track.id(), point, scale));
         }
         graphics.setClip(null);
         caption(graphics, film, tracked, height * scale);
@@ -87,11 +89,7 @@ public final class TrackPicture {
         }
     }
 
-    private static void drawBox(Graphics2D graphics, Track track, int frame, int scale) {
-        if (frame < track.firstFrame() || frame > track.lastFrame()) {
-            return;
-        }
-        TrackPoint point = track.points().get(frame - track.firstFrame());
+    private static void drawBox(Graphics2D graphics, int trackId, TrackPoint point, int scale) {
         Box box = point.box();
         graphics.setStroke(
                 point.interpolated()
@@ -102,7 +100,7 @@ public final class TrackPicture {
                 (box.xMin() + 0.5) * scale, (box.yMin() + 0.5) * scale, box.width() * scale, box.height() * scale));
         graphics.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 12));
         graphics.drawString(
-                Integer.toString(track.id()), (float) (box.xMax() + 1) * scale, (float) (box.yMin() + 1) * scale);
+                Integer.toString(trackId), (float) (box.xMax() + 1) * scale, (float) (box.yMin() + 1) * scale);
     }
 
     private static void caption(Graphics2D graphics, Film film, TrackedFilm tracked, int top) {

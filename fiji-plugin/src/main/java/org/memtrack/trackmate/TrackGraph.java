@@ -23,9 +23,10 @@ record TrackGraph(SimpleWeightedGraph<Spot, DefaultWeightedEdge> graph, List<Spo
         SimpleWeightedGraph<Spot, DefaultWeightedEdge> graph = new SimpleWeightedGraph<>(DefaultWeightedEdge.class);
         List<Spot> interpolated = new ArrayList<>();
         for (Track track : tracks) {
+            List<TrackPoint> points = track.points();
             Spot last = null;
-            for (int i = 0; i < track.length(); i++) {
-                TrackPoint point = track.points().get(i);
+            for (int i = 0; i < points.size(); i++) {
+                TrackPoint point = points.get(i);
                 Detection detection = point.detection();
                 Spot spot;
                 if (detection == null) {
@@ -36,7 +37,7 @@ record TrackGraph(SimpleWeightedGraph<Spot, DefaultWeightedEdge> graph, List<Spo
                 }
                 graph.addVertex(spot);
                 if (last != null) {
-                    double overlap = point.box().iou(track.points().get(i - 1).box());
+                    double overlap = point.box().iou(points.get(i - 1).box());
                     graph.setEdgeWeight(graph.addEdge(last, spot), 1 - overlap);
                 }
                 last = spot;

@@ -23,7 +23,7 @@ final class TrackOverlay {
     static void show(ImagePlus image, ImageFilm film, List<Track> tracks) {
         Overlay overlay = new Overlay();
         for (Track track : tracks) {
-            for (int i = 0; i < track.length(); i++) {
+            for (int i = 0; i < track.points().size(); i++) {
                 TrackPoint point = track.points().get(i);
                 int slice = film.sliceOf(point.frame() - film.firstFrame());
                 add(overlay, image, slice, track, box(point));

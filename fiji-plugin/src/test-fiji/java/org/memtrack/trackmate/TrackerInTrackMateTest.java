@@ -84,6 +84,19 @@ class TrackerInTrackMateTest {
     }
 
     @Test
+    void aTrackThatLacksSpotsIsJoinedAcrossTheHole() {
+        TrackMate trackmate = tracked();
+        trackmate.getSettings().trackerSettings.putAll(Map.of("INTERPOLATION", "AUTHORS", "MINIMUM_HITS", 2));
+        assertThat(trackmate.execTracking()).as(trackmate.getErrorMessage()).isTrue();
+        Model model = trackmate.getModel();
+        assertThat(model.getTrackModel().nTracks(true)).isEqualTo(2);
+        // As in SORT, frame 8 is predicted; then the track must be found twice in a row before it is told again.
+        assertThat(model.getTrackModel().trackIDs(true).stream()
+                        .map(id -> model.getTrackModel().trackSpots(id).size()))
+                .containsExactlyInAnyOrder(17, 20);
+    }
+
+    @Test
     void interpolatedSpotsHaveEveryFeatureThatObservedOnesHave() {
         Model model = tracked().getModel();
         Set<String> observed = spots(model, 0).get(0).getFeatures().keySet();

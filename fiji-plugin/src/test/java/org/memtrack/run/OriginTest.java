@@ -13,14 +13,28 @@ import org.memtrack.client.DetectionSummary;
 import org.memtrack.client.ModelInUse;
 import org.memtrack.client.ServerInfo;
 import org.memtrack.client.Thresholds;
+import org.memtrack.detection.Box;
 import org.memtrack.formats.Provenance;
 import org.memtrack.formats.TrackedFilm;
+import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.Film;
 import org.memtrack.video.FilmOptions;
 import org.memtrack.video.FrameAxis;
 import org.memtrack.video.ImageFilm;
 
 class OriginTest {
+    @Test
+    void pointsAreCountedAndNotTheFramesThatATrackSpans() {
+        Film film = SmallRun.film();
+        Box box = Box.around(20, 20, 8, 4);
+        Track track = new Track(0, List.of(new TrackPoint(1, box, null), new TrackPoint(7, box, null)));
+        assertThat(SmallRun.origin(film, SmallRun.result(film, track)).counts())
+                .containsEntry("tracks", 1L)
+                .containsEntry("points", 2L)
+                .containsEntry("interpolated_points", 2L);
+    }
+
     @Test
     void itTellsWhatEachStageTook() {
         Map<String, Double> seconds = Map.of("Background", 1.5, "Detecting", 20.25);

@@ -3,6 +3,7 @@ package org.memtrack.run;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import ij.IJ;
 import ij.ImagePlus;
 import ij.process.FloatProcessor;
 import java.awt.Color;
@@ -31,6 +32,18 @@ class TrackPictureTest {
     }
 
     @Test
+    void aTrackThatLacksPointsHasTheBoxOfTheLastFrameOrNone() {
+        ImagePlus image = IJ.createImage("six frames", "32-bit black", 500, 200, 6);
+        image.setDimensions(1, 1, 6);
+        Film sixFrames = new ImageFilm(image, FilmOptions.DEFAULTS);
+        Track toTheEnd = new Track(0, List.of(observed(1), observed(5)));
+        Track toTheOneBefore = new Track(0, List.of(observed(1), observed(4)));
+
+        assertThat(coloured(picture(sixFrames, toTheEnd), 201, 101, 140)).isEqualTo(39);
+        assertThat(coloured(picture(sixFrames, toTheOneBefore), 201, 101, 140)).isZero();
+    }
+
+    @Test
     void aFilmWithoutTracksIsAPictureToo() {
         BufferedImage picture = TrackPicture.of(film, TrackedFilm.of(film.info(), List.of(), List.of()))
                 .image();
@@ -39,9 +52,16 @@ class TrackPictureTest {
     }
 
     private BufferedImage picture(boolean observed) {
+        TrackPoint point = observed(0);
+        return picture(film, new Track(0, List.of(observed ? point : new TrackPoint(0, point.box(), null))));
+    }
+
+    private static TrackPoint observed(int frame) {
         Box box = Box.around(120, 75, 40, 50);
-        Track track =
-                new Track(0, List.of(new TrackPoint(0, box, observed ? new Detection(box, 0.9, Level.LOW) : null)));
+        return new TrackPoint(frame, box, new Detection(box, 0.9, Level.LOW));
+    }
+
+    private static BufferedImage picture(Film film, Track track) {
         return TrackPicture.of(film, TrackedFilm.of(film.info(), List.of(track), List.of()))
                 .image();
     }

@@ -48,6 +48,15 @@ class TrackOverlayTest {
     }
 
     @Test
+    void framesThatATrackLacksShowNothingOfIt() {
+        ImagePlus image = IJ.createImage("film", "8-bit", 100, 100, 9);
+        Box box = new Box(9.5, 19.5, 29.5, 59.5);
+        Track track = new Track(0, List.of(new TrackPoint(3, box, null), new TrackPoint(6, box, null)));
+        Overlay overlay = overlay(image, FrameAxis.Z, track);
+        assertThat(overlay.toArray()).extracting(Roi::getPosition).containsExactly(4, 7, 7);
+    }
+
+    @Test
     void ofAHyperstackEveryChannelShowsThem() {
         ImagePlus image = IJ.createHyperStack("film", 100, 100, 2, 1, 9, 8);
         image.setOpenAsHyperStack(true);
@@ -57,8 +66,12 @@ class TrackOverlayTest {
     }
 
     private static Overlay overlay(ImagePlus image, FrameAxis axis) {
+        return overlay(image, axis, TRACK);
+    }
+
+    private static Overlay overlay(ImagePlus image, FrameAxis axis, Track track) {
         FilmOptions options = new FilmOptions(axis, 1, 2, 8, OptionalDouble.empty(), OptionalDouble.empty());
-        TrackOverlay.show(image, new ImageFilm(image, options), List.of(TRACK));
+        TrackOverlay.show(image, new ImageFilm(image, options), List.of(track));
         return image.getOverlay();
     }
 }
