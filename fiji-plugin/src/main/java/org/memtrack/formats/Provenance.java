@@ -24,6 +24,7 @@ import java.util.Map;
  * @param counts name to count: what the detector found, what each filter dropped, tracks and points
  * @param seconds stage of the detection to its wall time
  * @param warnings what the user was told, one sentence each
+ * @param files name to SHA-256 of the files that the run wrote beside this one
  */
 public record Provenance(
         String created,
@@ -33,13 +34,24 @@ public record Provenance(
         Map<String, Object> settings,
         Map<String, Long> counts,
         Map<String, Double> seconds,
-        List<String> warnings) {
-
+        List<String> warnings,
+        Map<String, String> files) {
     private static final Gson GSON = new GsonBuilder()
             .setPrettyPrinting()
             .disableHtmlEscaping()
             .setObjectToNumberStrategy(ToNumberPolicy.LONG_OR_DOUBLE)
             .create();
+
+    public Provenance {
+        // JSON that some other program wrote may lack them.
+        software = software == null ? Map.of() : software;
+        files = files == null ? Map.of() : files;
+    }
+
+    /** The same, of a run that wrote these files. */
+    public Provenance with(Map<String, String> newFiles) {
+        return new Provenance(created, software, film, model, settings, counts, seconds, warnings, newFiles);
+    }
 
     /** Writes it as JSON, all or nothing. */
     public void write(Path target) throws IOException {

@@ -19,6 +19,9 @@ import org.memtrack.video.FilmInfo;
 
 /** Collects where the result of a run comes from. */
 public final class Origin {
+    /** Under what name the plug-in's version stands in every provenance. */
+    static final String PLUGIN = "MEMTrack plug-in";
+
     private Origin() {}
 
     /**
@@ -36,12 +39,13 @@ public final class Origin {
                 new LinkedHashMap<>(options),
                 counts(result),
                 result.detection().summary().secondsByStage(),
-                warnings);
+                warnings,
+                Map.of());
     }
 
     private static Map<String, String> software(TrackingResult result) {
         Map<String, String> software = new LinkedHashMap<>();
-        software.put("MEMTrack plug-in", PluginVersion.get());
+        software.put(PLUGIN, PluginVersion.get());
         software.put("memtrack server", result.server().version());
         software.put("protocol", Integer.toString(result.server().protocol()));
         software.put("Python", result.server().pythonVersion());

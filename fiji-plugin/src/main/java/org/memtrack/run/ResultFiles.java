@@ -6,7 +6,10 @@ import java.nio.file.AccessDeniedException;
 import java.nio.file.Files;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
+import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.formats.Mdf;
 import org.memtrack.formats.MotilityCsv;
@@ -23,15 +26,15 @@ import org.memtrack.video.Film;
  * @param motility table, one row a track
  * @param mdf for MTrackJ
  * @param picture last frame with the tracks, PNG
- * @param provenance settings, versions and counts, JSON; written last
+ * @param provenance settings, versions, counts and the hashes of the other files, JSON; written last
  */
 public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path picture, Path provenance) {
 
     /**
      * Where the results of a film will lie; the folder is made if it is missing.
      *
-     * @throws DetectorException when the folder cannot be made or written to, or holds files of these names that no run
-     *     has written, for example the user's own MTrackJ tracks
+     * @throws DetectorException when the folder cannot be made or written to, or holds files of these names that are not as
+     *     a run has left them, for example tracks that the user has made or corrected
      */
     public static ResultFiles in(Path folder, String title) {
         String name = baseName(title);
@@ -59,44 +62,70 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
     }
 
     /**
-     * Writes them, each all or nothing.
+     * Writes all of them or, where one cannot be written, none; files of an earlier run are replaced when these are complete.
      *
      * @param film whose last frame the picture shows
-     * @throws DetectorException when one cannot be written
+     * @throws DetectorException when one cannot be written, or the user has changed one of an earlier run meanwhile
      */
     public void write(TrackingResult result, Film film, Provenance origin) {
-        try {
-            TrackMateXml.write(xml, result.tracked());
-            TrackCsv.write(csv, result.tracked());
-            MotilityCsv.write(motility, result.tracked());
-            Mdf.write(mdf, result.tracked());
-            TrackPicture.of(film, result.tracked()).write(picture);
-            origin.write(provenance);
+        try (StagedFiles staged = new StagedFiles(folder())) {
+            TrackMateXml.write(staged.of(xml), result.tracked());
+            TrackCsv.write(staged.of(csv), result.tracked());
+            MotilityCsv.write(staged.of(motility), result.tracked());
+            Mdf.write(staged.of(mdf), result.tracked());
+            TrackPicture.of(film, result.tracked()).write(staged.of(picture));
+            Map<String, String> hashes = new LinkedHashMap<>();
+            for (Path file : List.of(xml, csv, motility, mdf, picture)) {
+                hashes.put(name(file), Sha256.of(staged.of(file)));
+            }
+            origin.with(hashes).write(staged.of(provenance));
+            checkReplaceable();
+            staged.moveTo(all());
         } catch (IOException e) {
             throw new DetectorException(
-                    "The results cannot be written to %s (%s): make room or choose another folder, and run again."
-                            .formatted(xml.getParent(), reason(e)),
+                    "The results cannot be written to %s (%s): make room, close what has them open, or choose another folder, and run again."
+                            .formatted(folder(), reason(e)),
                     e);
         }
     }
 
+    /** The folder they lie in. */
+    public Path folder() {
+        return provenance.resolveSibling("");
+    }
+
     private void checkReplaceable() {
-        List<Path> present = all().stream().filter(Files::exists).toList();
-        if (!present.isEmpty() && !writtenByARun()) {
-            throw new DetectorException(
-                    "%s is there already and is no result of MEMTrack: choose another folder, so that it"
-                                    .formatted(present.get(0))
-                            + " is not overwritten.");
+        Map<String, String> written = writtenByAnEarlierRun();
+        for (Path file : all()) {
+            boolean ours = file.equals(provenance) ? !written.isEmpty() : hasHash(file, written.get(name(file)));
+            if (Files.exists(file) && !ours) {
+                throw new DetectorException(
+                        "%s is there already, and is no result of MEMTrack or was changed since: move it away or choose another folder, so that it is not overwritten."
+                                .formatted(file));
+            }
         }
     }
 
-    private boolean writtenByARun() {
+    /** Hashes of the files that an earlier run left, by name; empty when there was none, or one that noted no hashes. */
+    private Map<String, String> writtenByAnEarlierRun() {
         try {
-            Provenance.read(provenance);
-            return true;
+            Provenance earlier = Provenance.read(provenance);
+            return earlier.software().containsKey(Origin.PLUGIN) ? earlier.files() : Map.of();
+        } catch (IOException e) {
+            return Map.of();
+        }
+    }
+
+    private static boolean hasHash(Path file, @Nullable String hash) {
+        try {
+            return hash != null && hash.equals(Sha256.of(file));
         } catch (IOException e) {
             return false;
         }
+    }
+
+    private static String name(Path file) {
+        return file.getFileName().toString();
     }
 
     private static String reason(IOException e) {

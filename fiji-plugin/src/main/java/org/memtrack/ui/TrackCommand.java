@@ -74,7 +74,7 @@ public final class TrackCommand implements PlugIn {
         }
         IJ.log("MEMTrack: " + result.describe());
         warnings.forEach(warning -> IJ.log("MEMTrack, note: " + warning));
-        IJ.log("MEMTrack: results in " + files.provenance().getParent());
+        IJ.log("MEMTrack: results in " + files.folder());
         IJ.showStatus("MEMTrack: " + result.describe());
     }
 

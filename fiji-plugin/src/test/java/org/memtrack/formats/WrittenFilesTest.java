@@ -203,7 +203,8 @@ class WrittenFilesTest {
                 Map.of("maximum_age", 25L),
                 Map.of("tracks", 12L),
                 Map.of("Detecting", 20.25),
-                List.of("No calibration."));
+                List.of("No calibration."),
+                Map.of("tracks.csv", "5e".repeat(32)));
         Path file = folder.resolve("tracks.json");
 
         provenance.write(file);
