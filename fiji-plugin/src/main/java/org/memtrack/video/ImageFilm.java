@@ -117,6 +117,11 @@ public final class ImageFilm implements Film {
                                     .formatted(slice, info.title())
                             + " still there.");
         }
+        UnreadFile.of(stack, slice, processor).ifPresent(file -> {
+            throw new DetectorException(
+                    "Slice %d of \"%s\" cannot be read from %s: check that the file is there and not damaged, and open the film again."
+                            .formatted(slice, info.title(), file));
+        });
         Object pixels = processor.getPixels();
         if (pixels instanceof byte[] samples) {
             return samples.clone();
