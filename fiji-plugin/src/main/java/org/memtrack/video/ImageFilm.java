@@ -3,17 +3,12 @@ package org.memtrack.video;
 
 import ij.ImagePlus;
 import ij.ImageStack;
-import ij.io.FileInfo;
 import ij.process.ImageProcessor;
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
-import java.nio.file.Files;
-import java.nio.file.InvalidPathException;
-import java.nio.file.Path;
 import java.util.List;
-import java.util.Locale;
-import java.util.Optional;
 import java.util.OptionalDouble;
+import java.util.stream.Stream;
 import org.memtrack.detection.DetectorException;
 
 /** A film that ImageJ has open, in memory or as a virtual stack. */
@@ -48,10 +43,13 @@ public final class ImageFilm implements Film {
                     .formatted(image.getTitle(), all, all, options.firstFrame(), last));
         }
         Calibrations calibrations = Calibrations.of(image.getCalibration(), options);
-        this.warnings = calibrations.warnings();
+        FilmFile file = FilmFile.of(image);
+        this.warnings = Stream.of(file.warnings(), calibrations.warnings())
+                .flatMap(List::stream)
+                .toList();
         this.info = new FilmInfo(
                 image.getTitle(),
-                file(image),
+                file.path(),
                 image.getWidth(),
                 image.getHeight(),
                 last - options.firstFrame() + 1,
@@ -76,7 +74,7 @@ public final class ImageFilm implements Film {
 
     /** What the user should know about this film, one sentence each. */
     public List<String> warnings() {
-        return List.copyOf(warnings);
+        return warnings;
     }
 
     @Override
@@ -163,26 +161,5 @@ public final class ImageFilm implements Film {
             throw new DetectorException("\"%s\" has its %d frames on T: leave frames=z out."
                     .formatted(image.getTitle(), image.getNFrames()));
         }
-    }
-
-    private static Optional<Path> file(ImagePlus image) {
-        FileInfo source = image.getOriginalFileInfo();
-        if (source == null || source.fileName == null || source.fileName.isBlank()) {
-            return Optional.empty();
-        }
-        try {
-            Path file = Path.of(source.directory == null ? "" : source.directory, source.fileName);
-            return Files.isRegularFile(file) && !isOneOfManyPictures(image, file)
-                    ? Optional.of(file)
-                    : Optional.empty();
-        } catch (InvalidPathException e) {
-            return Optional.empty();
-        }
-    }
-
-    /** A folder of pictures names its first one as its file. */
-    private static boolean isOneOfManyPictures(ImagePlus image, Path file) {
-        String name = file.getFileName().toString().toLowerCase(Locale.ROOT);
-        return image.getStackSize() > 1 && name.matches(".*\\.(png|jpe?g|bmp|gif|pgm)");
     }
 }
