@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.video;
 
+import ij.ImagePlus;
+import ij.io.FileInfo;
 import ij.measure.Calibration;
 import java.util.ArrayList;
 import java.util.List;
@@ -17,7 +19,8 @@ import java.util.OptionalDouble;
 record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameIntervalSeconds, List<String> warnings) {
 
     /** What the user said, and where they said nothing, what the image says. */
-    static Calibrations of(Calibration calibration, FilmOptions options) {
+    static Calibrations of(ImagePlus image, FilmOptions options) {
+        Calibration calibration = image.getCalibration();
         List<String> warnings = new ArrayList<>();
         OptionalDouble pixelSize = options.pixelSizeMicrometres();
         if (pixelSize.isEmpty()) {
@@ -34,8 +37,8 @@ record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameInt
         OptionalDouble interval = options.frameIntervalSeconds();
         if (interval.isEmpty()) {
             interval = Units.frameIntervalSeconds(calibration);
-            // The AVI reader gives the frame rate only.
-            if (interval.isEmpty() && calibration.fps > 0) {
+            // The AVI reader gives the frame rate only; of other films it is that of ImageJ's animation.
+            if (interval.isEmpty() && calibration.fps > 0 && isAvi(image)) {
                 interval = OptionalDouble.of(1 / calibration.fps);
                 warnings.add(String.format(
                         Locale.ROOT,
@@ -55,5 +58,12 @@ record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameInt
                                     : interval.isPresent() ? "pixel_size" : "pixel_size and frame_interval"));
         }
         return new Calibrations(pixelSize, interval, warnings);
+    }
+
+    private static boolean isAvi(ImagePlus image) {
+        FileInfo source = image.getOriginalFileInfo();
+        return source != null
+                && source.fileName != null
+                && source.fileName.toLowerCase(Locale.ROOT).endsWith(".avi");
     }
 }

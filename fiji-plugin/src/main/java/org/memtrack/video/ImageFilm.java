@@ -42,7 +42,7 @@ public final class ImageFilm implements Film {
             throw new DetectorException("\"%s\" has %d frames: choose a range within 1 to %d instead of %d to %d."
                     .formatted(image.getTitle(), all, all, options.firstFrame(), last));
         }
-        Calibrations calibrations = Calibrations.of(image.getCalibration(), options);
+        Calibrations calibrations = Calibrations.of(image, options);
         FilmFile file = FilmFile.of(image);
         this.warnings = Stream.of(file.warnings(), calibrations.warnings())
                 .flatMap(List::stream)

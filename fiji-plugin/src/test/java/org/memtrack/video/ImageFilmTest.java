@@ -8,6 +8,7 @@ import ij.IJ;
 import ij.ImagePlus;
 import ij.ImageStack;
 import ij.VirtualStack;
+import ij.io.FileInfo;
 import ij.process.ByteProcessor;
 import ij.process.FloatProcessor;
 import ij.process.ImageProcessor;
@@ -138,13 +139,30 @@ class ImageFilmTest {
         ImagePlus image = IJ.createImage("x", "8-bit", 4, 3, 1);
         image.getCalibration().setUnit("um");
         image.getCalibration().pixelWidth = 9;
-        image.getCalibration().fps = 30;
         FilmOptions options = new FilmOptions(FrameAxis.T, 1, 1, 0, OptionalDouble.of(0.25), OptionalDouble.of(0.5));
         assertThat(new ImageFilm(image, options).info().pixelSizeMicrometres()).hasValue(0.25);
         assertThat(new ImageFilm(image, options).info().frameIntervalSeconds()).hasValue(0.5);
-        ImageFilm playback = new ImageFilm(image, FilmOptions.DEFAULTS);
-        assertThat(playback.info().frameIntervalSeconds()).hasValue(1 / 30.0);
-        assertThat(playback.warnings()).anyMatch(warning -> warning.contains("playback rate"));
+    }
+
+    @Test
+    void thePlaybackRateOfAnAviIsItsFrameIntervalAndThatOfAnotherFilmIsNot() {
+        assertThat(playedAt30("film.AVI").info().frameIntervalSeconds()).hasValue(1 / 30.0);
+        assertThat(playedAt30("film.AVI").warnings()).anyMatch(warning -> warning.contains("playback rate"));
+        // Image > Stacks > Tools > Animation Options sets the rate too.
+        assertThat(playedAt30("film.tif").info().frameIntervalSeconds()).isEmpty();
+        assertThat(playedAt30("film.tif").warnings())
+                .singleElement()
+                .asString()
+                .contains("set pixel_size and frame_interval");
+    }
+
+    private static ImageFilm playedAt30(String fileName) {
+        ImagePlus image = IJ.createImage("x", "8-bit", 4, 3, 1);
+        image.getCalibration().fps = 30;
+        FileInfo source = new FileInfo();
+        source.fileName = fileName;
+        image.setFileInfo(source);
+        return new ImageFilm(image, FilmOptions.DEFAULTS);
     }
 
     private static ImageFilm film(ImageProcessor frame) {
