@@ -54,8 +54,8 @@ final class TrackDialog {
     /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
     static Optional<TrackRequest> ask(ImagePlus image) {
         Map<TrackOption, String> values = remembered(image);
-        values.put(TrackOption.PIXEL_SIZE, text(ImageFilm.pixelSizeMicrometres(image)));
-        values.put(TrackOption.FRAME_INTERVAL, text(ImageFilm.frameIntervalSeconds(image)));
+        Map<TrackOption, String> ofTheImage = ofTheImage(image);
+        values.putAll(ofTheImage);
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
@@ -71,7 +71,7 @@ final class TrackDialog {
                 return Optional.empty();
             }
             try {
-                TrackRequest request = TrackRequest.of(keyed(values));
+                TrackRequest request = TrackRequest.of(keyed(values, ofTheImage));
                 remember(image, values);
                 return Optional.of(request);
             } catch (DetectorException e) {
@@ -215,11 +215,19 @@ final class TrackDialog {
         return fields == null ? new Vector<T>().iterator() : fields.iterator();
     }
 
-    private static Map<String, String> keyed(Map<TrackOption, String> values) {
+    /** What the image says itself, shown to the user, who may know better. */
+    static Map<TrackOption, String> ofTheImage(ImagePlus image) {
+        return Map.of(
+                TrackOption.PIXEL_SIZE, text(ImageFilm.pixelSizeMicrometres(image)),
+                TrackOption.FRAME_INTERVAL, text(ImageFilm.frameIntervalSeconds(image)));
+    }
+
+    /** What the user has chosen, by key; a recorded macro says of other films only that. */
+    static Map<String, String> keyed(Map<TrackOption, String> values, Map<TrackOption, String> ofTheImage) {
         Map<String, String> keyed = new LinkedHashMap<>();
         values.forEach((option, value) -> {
             // An emptied field means the default.
-            if (!value.isEmpty()) {
+            if (!value.isEmpty() && !value.equals(ofTheImage.get(option))) {
                 keyed.put(option.key(), value);
             }
         });

@@ -94,6 +94,28 @@ class TrackDialogTest {
     }
 
     @Test
+    void whatTheImageSaysIsNoChoiceOfTheUserUntilTheyChangeIt() throws Exception {
+        ImagePlus film = filmIn("monday");
+        film.getCalibration().setUnit("um");
+        film.getCalibration().pixelWidth = 0.2475;
+        film.getCalibration().frameInterval = 1 / 30.0;
+        Map<TrackOption, String> ofTheImage = TrackDialog.ofTheImage(film);
+        Map<TrackOption, String> values = TrackDialog.remembered(film);
+        values.putAll(ofTheImage);
+        assertThat(values)
+                .containsEntry(TrackOption.PIXEL_SIZE, "0.2475")
+                .containsEntry(TrackOption.FRAME_INTERVAL, "0.0333333");
+        assertThat(TrackDialog.keyed(values, ofTheImage))
+                .containsEntry("preset", "collagen")
+                .doesNotContainKeys("pixel_size", "frame_interval");
+
+        values.put(TrackOption.FRAME_INTERVAL, "0.5");
+        assertThat(TrackDialog.keyed(values, ofTheImage))
+                .containsEntry("frame_interval", "0.5")
+                .doesNotContainKey("pixel_size");
+    }
+
+    @Test
     void slicesThatAreNoFramesAreNoFilm() {
         ImagePlus stack = IJ.createImage("stack", "8-bit", 8, 8, 9);
         assertThat(TrackDialog.axis(stack, true)).isEqualTo("z");
