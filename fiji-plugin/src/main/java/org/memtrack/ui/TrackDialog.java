@@ -2,7 +2,6 @@
 package org.memtrack.ui;
 
 import ij.ImagePlus;
-import ij.Prefs;
 import ij.gui.GenericDialog;
 import ij.gui.YesNoCancelDialog;
 import java.awt.Checkbox;
@@ -12,7 +11,6 @@ import java.awt.TextField;
 import java.math.BigDecimal;
 import java.math.MathContext;
 import java.util.ArrayList;
-import java.util.EnumMap;
 import java.util.EnumSet;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
@@ -29,18 +27,6 @@ import org.memtrack.video.ImageFilm;
 
 /** Asks for the options of "MEMTrack Track"; the last answers are offered again, in the dialog only. */
 final class TrackDialog {
-    private static final String PREFERENCE = "memtrack.";
-
-    /** Told by each film itself; the last film's would be wrong for the next. */
-    private static final Set<TrackOption> OF_THE_FILM = EnumSet.of(
-            TrackOption.PIXEL_SIZE,
-            TrackOption.FRAME_INTERVAL,
-            TrackOption.CELL_LENGTH,
-            TrackOption.FRAMES,
-            TrackOption.CHANNEL,
-            TrackOption.FIRST_FRAME,
-            TrackOption.LAST_FRAME);
-
     /** Share a row with the option before, so that the page fits on a small laptop. */
     private static final Set<TrackOption> BESIDE = EnumSet.of(
             TrackOption.LAST_FRAME,
@@ -53,14 +39,14 @@ final class TrackDialog {
 
     /** What the user wants; empty when they cancel. Asked again while a value is wrong. */
     static Optional<TrackRequest> ask(ImagePlus image) {
-        Map<TrackOption, String> values = remembered(image);
+        Map<TrackOption, String> values = RememberedOptions.of(image);
         Map<TrackOption, String> ofTheImage = ofTheImage(image);
         values.putAll(ofTheImage);
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
         String complaint = "";
-        boolean more = false;
+        boolean more = RememberedOptions.changeWhatIsNotShown(values);
         while (true) {
             Optional<Boolean> answer = page(complaint, true, more, values);
             if (answer.isEmpty()) {
@@ -72,36 +58,12 @@ final class TrackDialog {
             }
             try {
                 TrackRequest request = TrackRequest.of(keyed(values, ofTheImage));
-                remember(image, values);
+                RememberedOptions.keep(image, values);
                 return Optional.of(request);
             } catch (DetectorException e) {
                 complaint = e.getMessage();
             }
         }
-    }
-
-    /** The values that the dialog begins with; the film's own are still missing. */
-    static Map<TrackOption, String> remembered(ImagePlus image) {
-        Map<TrackOption, String> values = new EnumMap<>(TrackOption.class);
-        for (TrackOption option : TrackOption.values()) {
-            values.put(
-                    option,
-                    OF_THE_FILM.contains(option)
-                            ? option.defaultValue()
-                            : Prefs.get(PREFERENCE + option.key(), option.defaultValue()));
-        }
-        values.compute(TrackOption.OUTPUT, (option, own) -> OfferedFolder.of(image, own));
-        return values;
-    }
-
-    /** Keeps accepted values for the next film. */
-    static void remember(ImagePlus image, Map<TrackOption, String> values) {
-        values.forEach((option, value) -> {
-            if (!OF_THE_FILM.contains(option)) {
-                boolean folder = option == TrackOption.OUTPUT;
-                Prefs.set(PREFERENCE + option.key(), folder ? OfferedFolder.own(image, value) : value);
-            }
-        });
     }
 
     private static boolean askForAxis(ImagePlus image, Map<TrackOption, String> values) {
@@ -159,7 +121,8 @@ final class TrackDialog {
             }
         }
         if (common) {
-            dialog.addCheckbox("More options...", more);
+            boolean changed = RememberedOptions.changeWhatIsNotShown(values);
+            dialog.addCheckbox(changed ? "More options (some are changed)..." : "More options...", more);
         }
         dialog.addHelp(help(shown));
         dialog.showDialog();
