@@ -3,7 +3,6 @@ package org.memtrack.macro;
 
 import static org.memtrack.macro.TrackOption.*;
 
-import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.util.Map;
 import java.util.OptionalDouble;
@@ -46,13 +45,11 @@ public record TrackRequest(
         }
         try {
             return new TrackRequest(
-                    Path.of(values.text(OUTPUT)).toAbsolutePath(),
+                    GivenPath.of(values.text(OUTPUT)).toAbsolutePath(),
                     film(values),
                     new TrackingSettings(detection(values), tracking(values), server(values), secondLook(values)),
                     values.flag(OVERLAY),
                     values.asMap());
-        } catch (InvalidPathException e) {
-            throw new DetectorException("\"%s\" is no path: %s.".formatted(e.getInput(), e.getReason()), e);
         } catch (IllegalArgumentException e) {
             // Values are checked where they are kept; here their message becomes the user's sentence.
             throw new DetectorException(e.getMessage() + ": change that option.", e);
@@ -142,7 +139,7 @@ public record TrackRequest(
     private static ServerSettings server(OptionValues values) {
         return new ServerSettings(
                 values.given(SERVER) ? values.text(SERVER) : null,
-                values.given(PYTHON) ? Path.of(values.text(PYTHON)) : null);
+                values.given(PYTHON) ? GivenPath.of(values.text(PYTHON)) : null);
     }
 
     private static @Nullable Double orNull(OptionalDouble value) {

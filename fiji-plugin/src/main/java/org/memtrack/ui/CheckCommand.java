@@ -11,10 +11,12 @@ import java.nio.file.Path;
 import java.util.Map;
 import java.util.TreeMap;
 import java.util.stream.Collectors;
+import org.jspecify.annotations.Nullable;
 import org.memtrack.client.ModelCard;
 import org.memtrack.client.PluginVersion;
 import org.memtrack.client.ServerInfo;
 import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.GivenPath;
 import org.memtrack.macro.OptionLine;
 import org.memtrack.server.DataFolder;
 import org.memtrack.server.EnvironmentInstaller;
@@ -32,18 +34,7 @@ public final class CheckCommand implements PlugIn {
     }
 
     private static void check() {
-        String line = Macro.getOptions();
-        Map<String, String> options = OptionLine.parse(line == null ? "" : line);
-        options.keySet().stream()
-                .filter(key -> !key.equals("python") && !key.equals("server"))
-                .findFirst()
-                .ifPresent(key -> {
-                    throw new DetectorException(
-                            "\"%s\" is no option of MEMTrack Check Installation: the options are python and server."
-                                    .formatted(key));
-                });
-        String python = options.getOrDefault("python", "");
-        ServerSettings settings = new ServerSettings(options.get("server"), python.isEmpty() ? null : Path.of(python));
+        ServerSettings settings = settings(Macro.getOptions());
         StringBuilder report = new StringBuilder(ourSide());
         try (ServerConnection connection = Servers.acquire(settings, new StatusProgress())) {
             report.append(serverSide(connection));
@@ -54,6 +45,20 @@ public final class CheckCommand implements PlugIn {
             show(report.toString());
             throw e;
         }
+    }
+
+    static ServerSettings settings(@Nullable String line) {
+        Map<String, String> options = OptionLine.parse(line == null ? "" : line);
+        options.keySet().stream()
+                .filter(key -> !key.equals("python") && !key.equals("server"))
+                .findFirst()
+                .ifPresent(key -> {
+                    throw new DetectorException(
+                            "\"%s\" is no option of MEMTrack Check Installation: the options are python and server."
+                                    .formatted(key));
+                });
+        String python = options.getOrDefault("python", "");
+        return new ServerSettings(options.get("server"), python.isEmpty() ? null : GivenPath.of(python));
     }
 
     private static String ourSide() {

@@ -9,12 +9,12 @@ import ij.plugin.frame.Recorder;
 import java.awt.Checkbox;
 import java.awt.GraphicsEnvironment;
 import java.awt.TextField;
-import java.nio.file.Path;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.GivenPath;
 import org.memtrack.macro.OptionLine;
 import org.memtrack.server.DataFolder;
 import org.memtrack.server.EnvironmentInstaller;
@@ -44,7 +44,7 @@ public final class InstallCommand implements PlugIn {
                                     .formatted(key));
                 });
         PythonEnvironment made = new EnvironmentInstaller()
-                .install(python.isEmpty() ? null : Path.of(python), torch, new StatusProgress());
+                .install(python.isEmpty() ? null : GivenPath.of(python), torch, new StatusProgress());
         IJ.log("MEMTrack: the server %s is installed in %s".formatted(made.version(), made.folder()));
         IJ.showStatus("MEMTrack: the Python environment is installed");
     }

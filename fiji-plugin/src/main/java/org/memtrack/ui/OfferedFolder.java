@@ -5,6 +5,7 @@ import ij.ImagePlus;
 import ij.io.FileInfo;
 import java.io.File;
 import java.nio.file.Path;
+import org.memtrack.macro.GivenPath;
 
 /** The folder for results that the dialog begins with: one beside each film, until the user chooses one of their own. */
 final class OfferedFolder {
@@ -28,7 +29,7 @@ final class OfferedFolder {
     static String own(ImagePlus film, String accepted) {
         String beside = beside(film);
         // As paths, since the dialog adds a separator at the end.
-        return !beside.isEmpty() && Path.of(accepted).equals(Path.of(beside)) ? "" : accepted;
+        return !beside.isEmpty() && GivenPath.of(accepted).equals(Path.of(beside)) ? "" : accepted;
     }
 
     private static String beside(ImagePlus film) {

@@ -7,9 +7,9 @@ import ij.plugin.PlugIn;
 import ij.plugin.frame.Recorder;
 import java.awt.GraphicsEnvironment;
 import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.concurrent.CancellationException;
 import org.memtrack.detection.DetectorException;
+import org.memtrack.macro.GivenPath;
 import org.memtrack.macro.OptionLine;
 import org.memtrack.trackmate.TrackMateInstallation;
 
@@ -34,12 +34,12 @@ public final class OpenInTrackMateCommand implements PlugIn {
         if (file == null && options == null) {
             throw new CancellationException();
         }
-        if (file == null || !Files.isRegularFile(Path.of(file))) {
+        if (file == null || !Files.isRegularFile(GivenPath.of(file))) {
             throw new DetectorException("There is no file %s: give file=[/path/to/tracks.xml].".formatted(file));
         }
         if (options == null && Recorder.record) {
             Recorder.recordOption("file", file.replace('\\', '/'));
         }
-        TrackMateInstallation.open(Path.of(file));
+        TrackMateInstallation.open(GivenPath.of(file));
     }
 }

@@ -4,6 +4,7 @@ package org.memtrack.macro;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import java.nio.file.Path;
 import java.util.HashSet;
 import java.util.OptionalDouble;
 import java.util.Set;
@@ -55,6 +56,13 @@ class TrackRequestTest {
         assertThat(request.settings().server().address()).isEqualTo("host:1");
         assertThat(request.settings().server().python()).hasFileName("python");
         assertThat(request.overlay()).isFalse();
+    }
+
+    @Test
+    void pathsMayStandInQuotes() {
+        TrackRequest request = of("output=[\"/my films/out\"] python=\"/p/python\"");
+        assertThat(request.output()).isEqualTo(Path.of("/my films/out").toAbsolutePath());
+        assertThat(request.settings().server().python()).isEqualTo(Path.of("/p/python"));
     }
 
     @Test

@@ -3,7 +3,9 @@ package org.memtrack.ui;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+import java.nio.file.Path;
 import org.junit.jupiter.api.Test;
+import org.memtrack.server.ServerSettings;
 
 class CheckCommandTest {
     @Test
@@ -14,5 +16,12 @@ class CheckCommandTest {
         assertThat(lines.lines()).hasSize(2).allSatisfy(line -> assertThat(line).hasSizeLessThanOrEqualTo(80));
         assertThat(lines.strip().replace('\n', ' ')).isEqualTo("Server: " + sentence);
         assertThat(lines).endsWith("\n");
+    }
+
+    @Test
+    void aPathFromTheClipboardOfWindowsIsAPath() {
+        assertThat(CheckCommand.settings("python=[\"/my programs/python\"]").python())
+                .isEqualTo(Path.of("/my programs/python"));
+        assertThat(CheckCommand.settings(null)).isEqualTo(ServerSettings.DEFAULTS);
     }
 }
