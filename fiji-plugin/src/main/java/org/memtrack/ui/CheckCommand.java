@@ -17,7 +17,6 @@ import org.memtrack.client.PluginVersion;
 import org.memtrack.client.ServerInfo;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.GivenPath;
-import org.memtrack.macro.OptionLine;
 import org.memtrack.server.DataFolder;
 import org.memtrack.server.EnvironmentInstaller;
 import org.memtrack.server.PythonEnvironment;
@@ -48,15 +47,7 @@ public final class CheckCommand implements PlugIn {
     }
 
     static ServerSettings settings(@Nullable String line) {
-        Map<String, String> options = OptionLine.parse(line == null ? "" : line);
-        options.keySet().stream()
-                .filter(key -> !key.equals("python") && !key.equals("server"))
-                .findFirst()
-                .ifPresent(key -> {
-                    throw new DetectorException(
-                            "\"%s\" is no option of MEMTrack Check Installation: the options are python and server."
-                                    .formatted(key));
-                });
+        Map<String, String> options = CommandOptions.of(line, "MEMTrack Check Installation", "python", "server");
         String python = options.getOrDefault("python", "");
         return new ServerSettings(options.get("server"), python.isEmpty() ? null : GivenPath.of(python));
     }

@@ -15,7 +15,6 @@ import java.util.Optional;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.GivenPath;
-import org.memtrack.macro.OptionLine;
 import org.memtrack.server.DataFolder;
 import org.memtrack.server.EnvironmentInstaller;
 import org.memtrack.server.PythonEnvironment;
@@ -32,26 +31,17 @@ public final class InstallCommand implements PlugIn {
         if (options.isEmpty()) {
             return;
         }
-        Map<String, String> given = new LinkedHashMap<>(options.get());
-        String python = given.getOrDefault("python", "");
-        boolean torch = torch(given.getOrDefault("torch", "false"));
-        given.keySet().stream()
-                .filter(key -> !key.equals("python") && !key.equals("torch"))
-                .findFirst()
-                .ifPresent(key -> {
-                    throw new DetectorException(
-                            "\"%s\" is no option of MEMTrack Install Python Environment: the options are python and torch."
-                                    .formatted(key));
-                });
+        String python = options.get().getOrDefault("python", "");
+        boolean torch = torch(options.get().getOrDefault("torch", "false"));
         PythonEnvironment made = new EnvironmentInstaller()
                 .install(python.isEmpty() ? null : GivenPath.of(python), torch, new StatusProgress());
         IJ.log("MEMTrack: the server %s is installed in %s".formatted(made.version(), made.folder()));
         IJ.showStatus("MEMTrack: the Python environment is installed");
     }
 
-    private static Optional<Map<String, String>> options(@Nullable String line) {
+    static Optional<Map<String, String>> options(@Nullable String line) {
         if (line != null || GraphicsEnvironment.isHeadless()) {
-            return Optional.of(OptionLine.parse(line == null ? "" : line));
+            return Optional.of(CommandOptions.of(line, "MEMTrack Install Python Environment", "python", "torch"));
         }
         GenericDialog dialog = new GenericDialog("MEMTrack");
         dialog.addMessage(
