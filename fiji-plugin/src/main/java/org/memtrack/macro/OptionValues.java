@@ -72,18 +72,15 @@ final class OptionValues {
         };
     }
 
-    /** Number of the value among the option's choices. */
-    int choice(TrackOption option) {
-        for (int i = 0; i < option.choices().size(); i++) {
-            if (option.choices().get(i).equalsIgnoreCase(text(option))) {
-                return i;
-            }
-        }
-        throw wrong(
-                option,
-                option.choices().stream()
-                        .map(choice -> choice.contains(" ") ? "[" + choice + "]" : choice)
-                        .collect(Collectors.joining(" or ")));
+    /** What the option's choice stands for. */
+    <T> T choice(TrackOption option, Class<T> type) {
+        return option.meaning(text(option))
+                .map(type::cast)
+                .orElseThrow(() -> wrong(
+                        option,
+                        option.choices().stream()
+                                .map(choice -> choice.contains(" ") ? "[" + choice + "]" : choice)
+                                .collect(Collectors.joining(" or "))));
     }
 
     DetectorException wrong(TrackOption option, String expected) {

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.macro;
 
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 import java.util.Optional;
+import java.util.TreeMap;
+import java.util.function.Function;
 import java.util.stream.Stream;
+import org.memtrack.client.Criterion;
+import org.memtrack.client.DetectionSettings;
+import org.memtrack.tracking.Association;
+import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.TrackFilter;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.FrameAxis;
 
 /** An option of the command "MEMTrack Track": the one table that macro, dialog, recorder and manual derive from. */
 public enum TrackOption {
@@ -16,15 +26,13 @@ public enum TrackOption {
             "Medium",
             "collagen",
             "least length of a track: 60 frames in collagen, 30 in water",
-            "collagen",
-            "water"),
+            new TreeMap<>(Map.of("collagen", SortSettings.COLLAGEN, "water", SortSettings.WATER))),
     CRITERION(
             "criterion",
             "Thresholds for",
-            "maximum F1",
+            DetectionSettings.DEFAULTS.criterion().label(),
             "how sure of a cell to be: maximum precision for few false ones, maximum F1 for few false and few missed ones",
-            "maximum precision",
-            "maximum F1"),
+            choices(Criterion.values(), Criterion::label)),
     MODEL("model", "Model", Kind.TEXT, "default", "name of the model, or default"),
     PIXEL_SIZE("pixel_size", "Pixel size (um)", Kind.NUMBER, "", "edge of a pixel in um; the image's own if left out"),
     FRAME_INTERVAL(
@@ -42,7 +50,12 @@ public enum TrackOption {
     STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
     OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
 
-    FRAMES("frames", "Frames lie on", "t", "dimension of the image that holds the frames", "t", "z"),
+    FRAMES(
+            "frames",
+            "Frames lie on",
+            word(FilmOptions.DEFAULTS.frameAxis()),
+            "dimension of the image that holds the frames",
+            choices(FrameAxis.values(), TrackOption::word)),
     CHANNEL("channel", "Channel", Kind.INTEGER, "1", "channel to use, counted from 1"),
     FIRST_FRAME("first_frame", "First frame", Kind.INTEGER, "1", "first frame to use, counted from 1"),
     LAST_FRAME(
@@ -117,15 +130,13 @@ public enum TrackOption {
             "Association by",
             word(SortSettings.DEFAULTS.association()),
             "how detections are joined: by how swimmers move, or by overlap with the predicted box as in the paper",
-            "overlap",
-            "motion"),
+            choices(Association.values(), TrackOption::word)),
     INTERPOLATION(
             "interpolation",
             "Interpolation",
             word(SortSettings.DEFAULTS.interpolation()),
             "fill the gaps between detections, or as the paper's authors, with a tail after the last one",
-            "fill gaps",
-            "authors"),
+            choices(Interpolation.values(), TrackOption::word)),
     PYTHON("python", "Python", Kind.TEXT, "", "interpreter to start the server with; found if left out"),
     SERVER("server", "Server (host:port)", Kind.TEXT, "", "a server that runs already; its token in MEMTRACK_TOKEN");
 
@@ -144,17 +155,17 @@ public enum TrackOption {
     private final Kind kind;
     private final String defaultValue;
     private final String help;
-    private final List<String> choices;
+    private final Map<String, ?> choices;
 
     TrackOption(String key, String label, Kind kind, String defaultValue, String help) {
-        this(key, label, kind, defaultValue, help, List.of());
+        this(key, label, kind, defaultValue, help, Map.of());
     }
 
-    TrackOption(String key, String label, String defaultValue, String help, String... choices) {
-        this(key, label, Kind.CHOICE, defaultValue, help, List.of(choices));
+    TrackOption(String key, String label, String defaultValue, String help, Map<String, ?> choices) {
+        this(key, label, Kind.CHOICE, defaultValue, help, choices);
     }
 
-    TrackOption(String key, String label, Kind kind, String defaultValue, String help, List<String> choices) {
+    TrackOption(String key, String label, Kind kind, String defaultValue, String help, Map<String, ?> choices) {
         this.key = key;
         this.label = label;
         this.kind = kind;
@@ -189,7 +200,15 @@ public enum TrackOption {
 
     /** The values a {@code CHOICE} can have. */
     public List<String> choices() {
-        return choices;
+        return List.copyOf(choices.keySet());
+    }
+
+    /** What a choice stands for, its case aside; empty when there is no such choice. */
+    Optional<Object> meaning(String choice) {
+        return choices.entrySet().stream()
+                .filter(entry -> entry.getKey().equalsIgnoreCase(choice))
+                .findFirst()
+                .map(Map.Entry::getValue);
     }
 
     /** Whether the first page of the dialog shows it. */
@@ -199,6 +218,14 @@ public enum TrackOption {
 
     private static String number(double value) {
         return value == Math.rint(value) ? Long.toString((long) value) : Double.toString(value);
+    }
+
+    private static <E> Map<String, E> choices(E[] meanings, Function<E, String> word) {
+        Map<String, E> choices = new LinkedHashMap<>();
+        for (E meaning : meanings) {
+            choices.put(word.apply(meaning), meaning);
+        }
+        return choices;
     }
 
     private static String word(Enum<?> value) {

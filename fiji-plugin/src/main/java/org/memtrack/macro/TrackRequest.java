@@ -81,7 +81,7 @@ public record TrackRequest(
 
     private static FilmOptions film(OptionValues values) {
         return new FilmOptions(
-                FrameAxis.values()[values.choice(FRAMES)],
+                values.choice(FRAMES, FrameAxis.class),
                 values.integer(CHANNEL).orElse(1),
                 values.integer(FIRST_FRAME).orElse(1),
                 values.integer(LAST_FRAME).orElse(0),
@@ -93,7 +93,7 @@ public record TrackRequest(
         return new DetectionSettings(
                 values.text(MODEL).equals(MODEL.defaultValue()) ? "" : values.text(MODEL),
                 values.text(MODEL_VERSION),
-                Criterion.values()[values.choice(CRITERION)],
+                values.choice(CRITERION, Criterion.class),
                 thresholds(values),
                 orNull(values.number(MAX_SIZE)),
                 orNull(values.number(NMS_IOU)),
@@ -117,13 +117,13 @@ public record TrackRequest(
     }
 
     private static SortSettings tracking(OptionValues values) {
-        SortSettings preset = values.choice(PRESET) == 0 ? SortSettings.COLLAGEN : SortSettings.WATER;
+        SortSettings preset = values.choice(PRESET, SortSettings.class);
         return new SortSettings(
-                Association.values()[values.choice(ASSOCIATION)],
+                values.choice(ASSOCIATION, Association.class),
                 values.number(IOU_GATE).orElse(preset.iouGate()),
                 values.integer(MAX_AGE).orElse(preset.maximumAge()),
                 values.integer(MIN_HITS).orElse(preset.minimumHits()),
-                Interpolation.values()[values.choice(INTERPOLATION)],
+                values.choice(INTERPOLATION, Interpolation.class),
                 filter(values, preset.filter()));
     }
 

@@ -148,6 +148,17 @@ class TrackRequestTest {
     }
 
     @Test
+    void everyChoiceStandsForWhatItSays() {
+        assertThat(TrackOption.PRESET.meaning("collagen")).hasValue(SortSettings.COLLAGEN);
+        assertThat(TrackOption.PRESET.meaning("Water")).hasValue(SortSettings.WATER);
+        assertThat(TrackOption.CRITERION.meaning("maximum precision")).hasValue(Criterion.MAXIMUM_PRECISION);
+        assertThat(TrackOption.FRAMES.meaning("z")).hasValue(FrameAxis.Z);
+        assertThat(TrackOption.ASSOCIATION.meaning("motion")).hasValue(Association.MOTION);
+        assertThat(TrackOption.INTERPOLATION.meaning("fill gaps")).hasValue(Interpolation.FILL_GAPS);
+        assertThat(TrackOption.INTERPOLATION.meaning("fill")).isEmpty();
+    }
+
+    @Test
     void keysAreUniqueAndHelpIsThere() {
         Set<String> keys = new HashSet<>();
         for (TrackOption option : TrackOption.values()) {
