@@ -39,7 +39,7 @@ public record FilmInfo(
         return pixelSizeMicrometres.isPresent() && frameIntervalSeconds.isPresent();
     }
 
-    private static void requirePositive(String name, OptionalDouble value) {
+    static void requirePositive(String name, OptionalDouble value) {
         if (value.isPresent() && !(value.getAsDouble() > 0 && Double.isFinite(value.getAsDouble()))) {
             throw new IllegalArgumentException(
                     "The %s must be a positive number, not %s".formatted(name, value.getAsDouble()));

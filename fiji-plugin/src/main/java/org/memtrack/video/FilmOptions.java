@@ -32,14 +32,7 @@ public record FilmOptions(
             throw new IllegalArgumentException(
                     "Frames %d to %d are no range; frames are counted from 1".formatted(firstFrame, lastFrame));
         }
-        requirePositive("pixel size", pixelSizeMicrometres);
-        requirePositive("frame interval", frameIntervalSeconds);
-    }
-
-    private static void requirePositive(String name, OptionalDouble value) {
-        if (value.isPresent() && !(value.getAsDouble() > 0 && Double.isFinite(value.getAsDouble()))) {
-            throw new IllegalArgumentException(
-                    "The %s must be a positive number, not %s".formatted(name, value.getAsDouble()));
-        }
+        FilmInfo.requirePositive("pixel size", pixelSizeMicrometres);
+        FilmInfo.requirePositive("frame interval", frameIntervalSeconds);
     }
 }
