@@ -70,12 +70,16 @@ public final class TrackCommand implements PlugIn {
         warnings.addAll(result.warnings());
         files.write(result, film, Origin.of(film, result, request.options(), warnings));
         if (request.overlay() && !GraphicsEnvironment.isHeadless()) {
-            TrackOverlay.show(image, film, result.tracked().tracks());
+            TrackOverlay.show(image, film, result.tracked().tracks()).ifPresent(TrackCommand::note);
         }
         IJ.log("MEMTrack: " + result.describe());
-        warnings.forEach(warning -> IJ.log("MEMTrack, note: " + warning));
+        warnings.forEach(TrackCommand::note);
         IJ.log("MEMTrack: results in " + files.folder());
         IJ.showStatus("MEMTrack: " + result.describe());
+    }
+
+    private static void note(String sentence) {
+        IJ.log("MEMTrack, note: " + sentence);
     }
 
     private static void record(Map<String, String> options) {

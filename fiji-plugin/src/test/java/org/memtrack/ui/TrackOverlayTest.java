@@ -9,6 +9,7 @@ import ij.gui.Overlay;
 import ij.gui.Roi;
 import java.util.List;
 import java.util.OptionalDouble;
+import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
@@ -63,6 +64,48 @@ class TrackOverlayTest {
         Overlay overlay = overlay(image, FrameAxis.T);
         assertThat(overlay.get(0).getCPosition()).isZero();
         assertThat(overlay.get(0).getTPosition()).isEqualTo(4);
+    }
+
+    @Test
+    void whatElseIsDrawnStaysAndTheTracksOfAnEarlierRunDoNot() {
+        ImagePlus image = IJ.createImage("film", "8-bit", 100, 100, 9);
+        Roi scaleBar = new Roi(70, 90, 20, 3);
+        image.setOverlay(new Overlay(scaleBar));
+        overlay(image, FrameAxis.Z);
+        Overlay overlay = overlay(image, FrameAxis.Z);
+        assertThat(overlay.get(0)).isSameAs(scaleBar);
+        assertThat(overlay.size()).isEqualTo(1 + 3);
+    }
+
+    @Test
+    void theMorePointsThereAreTheLessIsDrawnOfEachAndTheUserIsTold() {
+        ImagePlus image = IJ.createImage("film", "8-bit", 100, 100, 10);
+        image.setDimensions(1, 1, 10);
+        ImageFilm film = new ImageFilm(image, FilmOptions.DEFAULTS);
+
+        List<Track> tracks = tracksOfTenPoints(TrackOverlay.MOST_POINTS_WITH_TAILS / 10);
+        assertThat(TrackOverlay.show(image, film, tracks)).isEmpty();
+        assertThat(image.getOverlay().size()).isEqualTo(tracks.size() * (10 + 9));
+
+        tracks = tracksOfTenPoints(TrackOverlay.MOST_POINTS_WITH_BOXES / 10);
+        assertThat(TrackOverlay.show(image, film, tracks))
+                .hasValueSatisfying(note -> assertThat(note).contains("100000 points", "boxes but not the steps"));
+        assertThat(image.getOverlay().size()).isEqualTo(tracks.size() * 10);
+        assertThat(image.getOverlay().get(9).getPosition()).isEqualTo(10);
+
+        tracks = tracksOfTenPoints(TrackOverlay.MOST_POINTS_WITH_BOXES / 10 + 1);
+        assertThat(TrackOverlay.show(image, film, tracks))
+                .hasValueSatisfying(note -> assertThat(note).contains("100010 points", "whole paths"));
+        assertThat(image.getOverlay().size()).isEqualTo(tracks.size());
+        assertThat(image.getOverlay().get(0).getPosition()).isZero();
+        assertThat(image.getOverlay().get(0).getFloatBounds().getX()).isEqualTo(10.5);
+    }
+
+    private static List<Track> tracksOfTenPoints(int count) {
+        List<TrackPoint> points = IntStream.range(0, 10)
+                .mapToObj(frame -> new TrackPoint(frame, Box.around(10 + frame, 20, 4, 2), null))
+                .toList();
+        return IntStream.range(0, count).mapToObj(id -> new Track(id, points)).toList();
     }
 
     private static Overlay overlay(ImagePlus image, FrameAxis axis) {
