@@ -17,8 +17,8 @@ import org.memtrack.video.RegionMask;
  * @param nmsIou of two boxes whose intersection over union exceeds this, in (0, 1], the weaker is dropped; null for the
  *     model's own (0.7 in the paper)
  * @param stabilise whether to measure and undo the drift of the stage before the temporal median
- * @param cellLengthPx length of a cell as it looks in this film, in pixels, for films without a pixel size; null when
- *     not known
+ * @param cellLengthPx length of a cell as it looks in this film, in pixels; the film is scaled by it, whatever its pixel
+ *     size; null to go by the pixel size
  * @param region where to report detections; null for everywhere
  */
 public record DetectionSettings(

@@ -56,7 +56,7 @@ public final class EnvironmentInstaller {
      * Makes a new environment and puts it into use in place of an older one.
      *
      * @param python to make it with; null to look for one on this machine, then in a jar beside the plug-in's
-     * @param training whether to install what training needs, too: PyTorch, which graphics cards need as well, and nncf
+     * @param training whether to install what training needs, too: PyTorch and nncf
      * @throws DetectorException when it cannot be made; the older one, if any, is in use as before
      * @throws CancellationException when progress was cancelled; likewise
      */

@@ -48,7 +48,7 @@ public final class InstallCommand implements PlugIn {
                 "Installs what MEMTrack finds cells with, a Python environment, in\n%s\n".formatted(DataFolder.path())
                         + "About 150 MB are downloaded. An older one is replaced when the new one works.");
         dialog.addStringField("Python program (empty: looked for)", "", 28);
-        dialog.addCheckbox("Also PyTorch, for training and graphics cards (several GB)", false);
+        dialog.addCheckbox("Also PyTorch, for training (several GB)", false);
         dialog.showDialog();
         if (dialog.wasCanceled()) {
             return Optional.empty();
