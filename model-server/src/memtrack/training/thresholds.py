@@ -16,7 +16,10 @@ from memtrack.training.samples import IGNORED, LEVEL, FilmSamples, X, Y
 
 MATCH_PX = 8.0
 """A detection is right when its centre is this near a bacterium's: stricter than the paper's IoU 0.1 (24 px)."""
-SURE_PRECISION = 0.97
+SURE_PRECISION = 0.98
+EVEN_F1 = 0.003
+"""Differences of F1 below this are nothing. Between bounds that are even the lower one is taken: what it finds besides, the
+track filter can still drop, and what a bound drops nothing brings back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,12 +147,13 @@ def _bounds(pooled: Curve) -> dict[str, float]:
     if not len(pooled.thresholds):
         return {"max_precision": 0.5, "max_f1": 0.5}
     best = int(pooled.f1.argmax())
+    even = int(np.flatnonzero(pooled.f1 >= pooled.f1[best] - EVEN_F1).max())
     stricter = np.arange(best + 1)
     sure = stricter[pooled.precision[: best + 1] >= SURE_PRECISION]
     useful = stricter[pooled.recall[: best + 1] >= 0.75 * pooled.recall[best]]
     kept = np.intersect1d(sure, useful)
     strict = int(kept.max()) if len(kept) else int(useful[pooled.precision[useful].argmax()])
-    return {"max_precision": float(pooled.thresholds[strict]), "max_f1": float(pooled.thresholds[best])}
+    return {"max_precision": float(pooled.thresholds[strict]), "max_f1": float(pooled.thresholds[even])}
 
 
 def _level_fit(scored: Scored, level: Level) -> tuple[float, float]:
