@@ -84,13 +84,12 @@ def without_defects(film: Film) -> Film:
 
 def _standing_out(frame: Frame) -> Bool[np.ndarray, "h w"]:
     """Pixels far from the median around them whose neighbours all stay near it."""
-    values = frame.astype(np.float32)
-    height = np.abs(values - cv2.medianBlur(values, 3))
+    height = cv2.absdiff(frame, cv2.medianBlur(frame, 3))
     noise = 1.4826 * float(np.median(height[::3, ::3]))
-    candidates = height > max(SIGNIFICANT * noise, LEAST_STEPS if frame.dtype.kind == "u" else 0.0)
-    beside = cv2.dilate(height, _RING)
-    alone: np.ndarray = candidates & (beside < ALONE * height)
-    return alone
+    candidates: np.ndarray = height > max(SIGNIFICANT * noise, LEAST_STEPS if frame.dtype.kind == "u" else 0.0)
+    if candidates.any():
+        candidates &= cv2.dilate(height, _RING) < ALONE * height.astype(np.float32)
+    return candidates
 
 
 def _inside(places: Int[np.ndarray, " n"], size: int) -> Int[np.ndarray, " n"]:

@@ -185,7 +185,7 @@ def _band_pass(frame: Image, shrink: int) -> Float32[np.ndarray, "small_h small_
     h, w = (edge // shrink for edge in frame.shape)
     small = cv2.resize(frame[: h * shrink, : w * shrink], (w, h), interpolation=cv2.INTER_AREA)
     bands: np.ndarray = cv2.GaussianBlur(small, (0, 0), 1.0) - cv2.blur(small, (17, 17))
-    contrast = float(np.median(np.abs(bands[::3, ::3])))
+    contrast = cv2.norm(bands, cv2.NORM_L1) / bands.size
     if contrast > 0:
         bands *= np.float32(1 / contrast)
     return bands
@@ -222,7 +222,9 @@ def register(
     """
     shift, error = np.asarray(start, np.float64), np.inf
     for _ in range(steps):
-        target, moved = _moved_back(reference, image, shift)
+        whole = np.rint(shift).astype(int)
+        target, source = overlap(reference.image.shape, whole)
+        moved = read_shifted(image, *(shift - whole))[source]
         if min(moved.shape) < MIN_EDGE // 2:
             return np.asarray(start, np.float64), np.inf
         residual = reference.image[target] - moved
@@ -235,23 +237,14 @@ def register(
 
 def likeness(reference: _Reference, image: Image, shift: Float64[np.ndarray, " 2"]) -> float:
     """Correlation, in [-1, 1], of what both images show if the scene stands `shift` further in `image` than in
-    `reference`; 0 where that is hardly anything."""
-    target, moved = _moved_back(reference, image, shift)
-    if min(moved.shape) < MIN_EDGE // 2:
+    `reference`; 0 where that is hardly anything. To the pixel, and every other one, which is enough to tell a scene."""
+    target, source = overlap(reference.image.shape, np.rint(shift).astype(int))
+    still, moved = reference.image[target][::2, ::2], image[source][::2, ::2]
+    if min(moved.shape) < MIN_EDGE // 4:
         return 0.0
-    still = reference.image[target] - reference.image[target].mean()
-    moved = moved - moved.mean()
+    still, moved = still - still.mean(), moved - moved.mean()
     norm = float(np.linalg.norm(still)) * float(np.linalg.norm(moved))
-    return float((still * moved).sum()) / norm if norm > 0 else 0.0
-
-
-def _moved_back(
-    reference: _Reference, image: Image, shift: Float64[np.ndarray, " 2"]
-) -> tuple[Window, Float32[np.ndarray, "shown_h shown_w"]]:
-    """The part of `reference` that `image` shows as well, and that part of `image`, moved back by `shift`."""
-    whole = np.rint(shift).astype(int)
-    target, source = overlap(reference.image.shape, whole)
-    return target, read_shifted(image, *(shift - whole))[source]
+    return float(np.vdot(still, moved)) / norm if norm > 0 else 0.0
 
 
 def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndarray, " 2"], float]:

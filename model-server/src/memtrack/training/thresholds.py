@@ -18,8 +18,8 @@ MATCH_PX = 8.0
 """A detection is right when its centre is this near a bacterium's: stricter than the paper's IoU 0.1 (24 px)."""
 SURE_PRECISION = 0.98
 EVEN_F1 = 0.003
-"""Differences of F1 below this are nothing. Of bounds that are even the lowest is taken: what it finds besides, the track
-filter can still drop, and what a bound drops nothing brings back."""
+"""Differences of F1 below this are nothing. Of bounds that are even the lowest is taken: what it finds besides, the
+track filter can still drop, and what a bound drops nothing brings back."""
 
 
 @dataclass(frozen=True, slots=True)
