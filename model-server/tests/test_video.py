@@ -112,7 +112,9 @@ def test_an_unknown_compression_is_refused_in_one_sentence(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(
-    "options", [{"imagej": True}, {"ome": True}, {}, {"compression": "zlib"}], ids=["imagej", "ome", "plain", "zlib"]
+    "options",
+    [{"imagej": True, "metadata": {"axes": "TYX"}}, {"ome": True}, {}, {"compression": "zlib"}],
+    ids=["imagej", "ome", "plain", "zlib"],
 )
 def test_a_tiff_that_broke_off_is_refused_or_lacks_no_frame(tmp_path: Path, options: dict[str, Any]) -> None:
     path = tmp_path / "film.tif"
