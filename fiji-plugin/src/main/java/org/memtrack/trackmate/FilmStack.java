@@ -18,14 +18,7 @@ final class FilmStack extends VirtualStack {
     /** @throws DetectorException when the film's image cannot read it */
     @Override
     public ImageProcessor getProcessor(int frame) {
-        int slice = film.sliceOf(frame - 1);
-        ImageProcessor processor = film.image().getStack().getProcessor(slice);
-        if (processor == null) {
-            throw new DetectorException(
-                    "Slice %d of \"%s\" cannot be read: open the film again and check that its files are still there."
-                            .formatted(slice, film.info().title()));
-        }
-        return processor;
+        return film.processor(frame - 1);
     }
 
     @Override

@@ -105,8 +105,12 @@ public final class ImageFilm implements Film {
                 : image.getStackIndex(options.channel(), counted, 1);
     }
 
-    @Override
-    public byte[] frame(int frame) {
+    /**
+     * A frame, from 0, as ImageJ holds it; not to be changed.
+     *
+     * @throws DetectorException when it cannot be read, as a file of the film is gone or damaged
+     */
+    public ImageProcessor processor(int frame) {
         int slice = sliceOf(frame);
         ImageProcessor processor = stack.getProcessor(slice);
         if (processor == null || processor.getWidth() != info.width() || processor.getHeight() != info.height()) {
@@ -120,7 +124,12 @@ public final class ImageFilm implements Film {
                     "Slice %d of \"%s\" cannot be read from %s: check that the file is there and not damaged, and open the film again."
                             .formatted(slice, info.title(), file));
         });
-        Object pixels = processor.getPixels();
+        return processor;
+    }
+
+    @Override
+    public byte[] frame(int frame) {
+        Object pixels = processor(frame).getPixels();
         if (pixels instanceof byte[] samples) {
             return samples.clone();
         }
