@@ -80,14 +80,12 @@ def test_one_probability_bounds_all_levels_and_maximum_precision_is_the_stricter
 
 
 def test_of_bounds_with_even_f1_the_lowest_is_taken() -> None:
-    scores = np.repeat(np.array([0.9, 0.6, 0.3, 0.1]), 1000)
-    right = np.tile([True, False], 2000)
-    right[:1000] = True  # all above 0.9, half below: F1 falls slowly
-    truths = 1500
-    chosen = choose(scored(scores, right, truths))["max_f1"][0]
-    f1 = [2 * right[scores >= t].sum() / ((scores >= t).sum() + truths) for t in (0.9, 0.6, 0.3, 0.1)]
-    even = [t for t, value in zip((0.9, 0.6, 0.3, 0.1), f1, strict=True) if value >= max(f1) - 0.003]
-    assert chosen == pytest.approx(min(even), abs=0.02)
+    scores = np.repeat([0.9, 0.6, 0.3, 0.1], [1000, 1000, 100, 1000])
+    right = np.concatenate([np.arange(n) < of for n, of in ((1000, 1000), (1000, 800), (100, 40), (1000, 100))])
+    bounds = (0.9, 0.6, 0.3, 0.1)
+    f1 = [2 * right[scores >= t].sum() / ((scores >= t).sum() + 2000) for t in bounds]
+    np.testing.assert_allclose(f1, [0.667, 0.9, 0.8976, 0.761], atol=5e-4)  # the best one is 0.6
+    assert choose(scored(scores, right, 2000))["max_f1"][0] == pytest.approx(0.3, abs=0.02)
 
 
 def test_without_a_detection_there_are_still_thresholds() -> None:
