@@ -216,6 +216,8 @@ def test_families_that_are_hard_in_one_respect_are_so() -> None:
         assert len(recipe.gaits) <= 6
         assert not recipe.decoys or (recipe.decoys >= 5 and recipe.wobble >= 0.1)
     assert all(6 <= recipe.frames <= 30 for recipe in drawn("brief"))
+    asked = [draw_recipe(family, np.random.default_rng(1), width=200, height=160, frames=77) for family in FAMILIES]
+    assert {recipe.frames for recipe in asked} == {77}
 
 
 @pytest.mark.parametrize("bits", [8, 16])

@@ -85,9 +85,9 @@ class DetectionSettings:
 def detect_film(film: Film, model: Model, settings: DetectionSettings, report: Report) -> Iterator[FrameDetections]:
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
-    Reads the film up to four times through `film.frame` and holds a few frames of it. `report(stage, done, total)` is
-    called at least once a frame in every stage and may raise `CancelledError`. The backgrounds of a long film after the
-    first are made while detecting, each when its frames come.
+    Reads the film up to four times through `film.frame`, some of its frames once more, and holds a few frames of it.
+    `report(stage, done, total)` is called at least once a frame in every stage and may raise `CancelledError`. The
+    backgrounds of a long film after the first are made while detecting, each when its frames come.
 
     Raises:
         FilmError: the film holds values that are not finite.

@@ -23,10 +23,11 @@ def draw_recipe(family: str, rng: np.random.Generator, *, width: int, height: in
         family: a name of `FAMILIES`.
         rng: source of the random numbers.
         width, height: size of the field in pixels.
-        frames: length of the film; None draws one.
+        frames: length of the film; None draws one, as the family has it.
     """
     length = int(np.exp(rng.uniform(np.log(30), np.log(160)))) if frames is None else frames
-    return FAMILIES[family](Recipe(width=width, height=height, frames=length), rng)
+    recipe = FAMILIES[family](Recipe(width=width, height=height, frames=length), rng)
+    return recipe if frames is None else replace(recipe, frames=frames)
 
 
 def collagen(recipe: Recipe, rng: np.random.Generator) -> Recipe:
