@@ -7,10 +7,11 @@ import pytest
 
 from memtrack.errors import FilmError
 from memtrack.film import ArrayFilm
+from memtrack.registration import overlap
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.simulation.scenes import mottled
-from memtrack.stabilisation import measure_motion, overlap
+from memtrack.stabilisation import measure_motion
 
 
 def drifting(drift: np.ndarray, *, noise: float = 4.0, lamp: np.ndarray | None = None, cells: int = 0) -> ArrayFilm:

@@ -20,8 +20,8 @@ from memtrack.background import aligned_frame
 from memtrack.channels import KNEE, NEUTRAL, Channel, Image, as_bytes, shading_of, signed
 from memtrack.errors import SettingsError
 from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
+from memtrack.registration import overlap
 from memtrack.scene import Scene
-from memtrack.stabilisation import overlap
 from memtrack.wobble import take_out_wobble
 
 MEAN_GAIN = 2.0

@@ -2,14 +2,12 @@
 """Stage drift and lamp flicker of a film, measured against its own static scene.
 
 A drift of a few pixels or a flicker of 2 % ruins a per-pixel median, so both are taken out before it. The drift is
-found by iterated least squares on image gradients (Lucas and Kanade's equation for one shift of the whole field), with
-pixels that do not fit, the moving cells, weighted down, and the field cut into blocks whose estimates must agree:
-where they do not, as in clear water that shows nothing but swimmers, there is nothing to stabilise on.
+found by registration of each frame, in blocks whose estimates must agree: where they do not, as in clear water that
+shows nothing but swimmers, there is nothing to stabilise on.
 """
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,13 +18,11 @@ from jaxtyping import Float32, Float64
 
 from memtrack.errors import FilmError
 from memtrack.film import Film
+from memtrack.registration import MIN_EDGE, Image, Reference, likeness, overlap, register
 from memtrack.resampling import read_shifted
 
 Progress = Callable[[int, int], None]
-Image = Float32[np.ndarray, "h w"]
 
-MAX_BLOCKS = 8
-MIN_EDGE = 24
 AGREEMENT_PX = 0.12
 """Standard error of the blocks' common shift above which a film counts as having no static scene."""
 REFERENCE_FRAMES = 25
@@ -112,7 +108,7 @@ def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> 
     # The reference covers the field of the middle of the drift, where most frames overlap it.
     origin = np.median(drift, axis=0)
     aligned = [_aligned(_band_pass(film.frame(int(i)).astype(np.float32), 2), (drift[i] - origin) / 2) for i in chosen]
-    reference = _Reference(_median_where_known(np.stack(aligned)))
+    reference = Reference(_median_where_known(np.stack(aligned)))
     refined, errors, alike = drift.copy(), np.zeros(count), np.zeros(count)
     for i in range(count):
         image = _band_pass(film.frame(i).astype(np.float32), 2)
@@ -130,15 +126,6 @@ def _refine(film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress) -> 
     return refined
 
 
-class _Reference:
-    """A still image with its gradients."""
-
-    def __init__(self, image: Image) -> None:
-        self.image = image
-        self.gx = cv2.Scharr(image, cv2.CV_32F, 1, 0, scale=1 / 32)
-        self.gy = cv2.Scharr(image, cv2.CV_32F, 0, 1, scale=1 / 32)
-
-
 class _Chain:
     """Drift of successive images against the first; a new reference is taken where too little of it is left.
 
@@ -148,7 +135,7 @@ class _Chain:
     """
 
     def __init__(self) -> None:
-        self._reference: _Reference | None = None
+        self._reference: Reference | None = None
         self._origin = np.zeros(2)
         self._last = np.zeros(2)
         self._usual_error = np.inf
@@ -158,12 +145,12 @@ class _Chain:
         reference = self._reference
         self._begun += 1
         if reference is None:
-            self._reference = _Reference(image)
+            self._reference = Reference(image)
             return self._last
         shift, error = register(reference, image, self._last - self._origin, steps=5)
         begins = np.isinf(self._usual_error) and self._begun <= FIRST_FRAMES
         if begins and likeness(reference, image, shift) < LEAST_LIKENESS:
-            self._reference = _Reference(image)  # the first frames may be dark, or of another place
+            self._reference = Reference(image)  # the first frames may be dark, or of another place
             return self._last
         if not error <= 3 * self._usual_error:
             window = cv2.createHanningWindow(image.shape[::-1], cv2.CV_32F)
@@ -176,7 +163,7 @@ class _Chain:
         self._usual_error = error if np.isinf(self._usual_error) else 0.9 * self._usual_error + 0.1 * error
         self._last = self._origin + shift
         if np.any(np.abs(shift) > 0.2 * np.array(image.shape[::-1])):
-            self._reference, self._origin = _Reference(image), self._last
+            self._reference, self._origin = Reference(image), self._last
         return self._last
 
 
@@ -201,92 +188,6 @@ def _aligned(image: Image, drift: Float64[np.ndarray, " 2"]) -> Image:
     return out
 
 
-Window = tuple[slice, slice]
-
-
-def overlap(shape: tuple[int, ...], shift: np.ndarray) -> tuple[Window, Window]:
-    """Windows of a still image and of one whose scene stands `shift` (x, y) whole pixels further that show the same."""
-    dx, dy = (int(s) for s in shift)
-    h, w = shape[:2]
-    target = (slice(max(0, -dy), max(0, min(h, h - dy))), slice(max(0, -dx), max(0, min(w, w - dx))))
-    source = (slice(max(0, dy), max(0, min(h, h + dy))), slice(max(0, dx), max(0, min(w, w + dx))))
-    return target, source
-
-
-def register(
-    reference: _Reference, image: Image, start: Float64[np.ndarray, " 2"], *, steps: int
-) -> tuple[Float64[np.ndarray, " 2"], float]:
-    """Shift (x, y) of `image`'s scene against `reference`'s, and the standard error its blocks imply, in pixels.
-
-    Converges from a `start` within about 3 px. An infinite error: the images show nothing in common.
-    """
-    shift, error = np.asarray(start, np.float64), np.inf
-    for _ in range(steps):
-        whole = np.rint(shift).astype(int)
-        target, source = overlap(reference.image.shape, whole)
-        moved = read_shifted(image, *(shift - whole))[source]
-        if min(moved.shape) < MIN_EDGE // 2:
-            return np.asarray(start, np.float64), np.inf
-        residual = reference.image[target] - moved
-        change, error = _block_shift(residual, reference.gx[target], reference.gy[target])
-        shift = shift + np.clip(change, -2, 2)
-        if np.abs(change).max() < 0.01:
-            break
-    return shift, error
-
-
-def likeness(reference: _Reference, image: Image, shift: Float64[np.ndarray, " 2"]) -> float:
-    """Correlation, in [-1, 1], of what both images show if the scene stands `shift` further in `image` than in
-    `reference`; 0 where that is hardly anything. To the pixel, and every other one, which is enough to tell a scene."""
-    target, source = overlap(reference.image.shape, np.rint(shift).astype(int))
-    still, moved = reference.image[target][::2, ::2], image[source][::2, ::2]
-    if min(moved.shape) < MIN_EDGE // 4:
-        return 0.0
-    still, moved = still - still.mean(), moved - moved.mean()
-    norm = float(np.linalg.norm(still)) * float(np.linalg.norm(moved))
-    return float(np.vdot(still, moved)) / norm if norm > 0 else 0.0
-
-
-def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndarray, " 2"], float]:
-    """One least-squares step: the shift most blocks agree on, and its standard error."""
-    scale = 1.4826 * float(np.median(np.abs(residual[::3, ::3]))) + 1e-6
-    weight = np.square(residual * np.float32(1 / (3 * scale)))
-    weight += 1
-    weight = 1 / np.square(weight)  # Geman and McClure's: what does not fit at all has no say at all
-    gxw, gyw = gx * weight, gy * weight
-    a, b, c = (_block_sums(product) for product in (gxw * gx, gxw * gy, gyw * gy))
-    u, v = _block_sums(gxw * residual), _block_sums(gyw * residual)
-    ridge = 0.02 * (a + c).mean() + 1e-9
-    determinant = (a + ridge) * (c + ridge) - b * b
-    shifts = np.stack([(c + ridge) * u - b * v, (a + ridge) * v - b * u], axis=1) / determinant[:, None]
-    trust = np.minimum(a + c, np.median(a + c) + 1e-12)  # one bright cell must not outvote the scene
-    total = float(trust.sum())
-    if not 0 < total < math.inf:
-        return np.zeros(2), np.inf  # nothing to tell a shift by
-    trust /= total
-    common = np.array([_weighted_median(shifts[:, axis], trust) for axis in range(2)])
-    spread = max(_weighted_median(np.abs(shifts[:, axis] - common[axis]), trust) for axis in range(2))
-    close = np.abs(shifts - common).max(axis=1) <= 2.5 * spread + 1e-9
-    mean = np.average(shifts[close], axis=0, weights=trust[close])
-    effective = 1 / np.square(trust).sum()
-    return mean, 1.4826 * spread / float(np.sqrt(effective))
-
-
-def _block_sums(values: Image) -> Float64[np.ndarray, " blocks"]:
-    """Sums over up to `MAX_BLOCKS` x `MAX_BLOCKS` blocks; as two matrix products, quicker than any resizing."""
-    rows, columns = (_membership(edge) for edge in values.shape)
-    sums: np.ndarray = (rows @ values @ columns.T).ravel().astype(np.float64)
-    return sums
-
-
-@functools.lru_cache(64)
-def _membership(edge: int) -> Float32[np.ndarray, "blocks edge"]:
-    blocks = max(1, min(MAX_BLOCKS, edge // (MIN_EDGE // 2)))
-    owner = np.arange(edge) * blocks // edge
-    member: np.ndarray = (owner[None] == np.arange(blocks)[:, None]).astype(np.float32)
-    return member
-
-
 def _median_where_known(images: Float32[np.ndarray, "n h w"]) -> Image:
     """Median over the images that are not NaN at a pixel, 0 where all are; NaNs sort to the end."""
     n, h, w = images.shape
@@ -295,8 +196,3 @@ def _median_where_known(images: Float32[np.ndarray, "n h w"]) -> Image:
     middle = ranked[np.arange(h * w), np.maximum(known - 1, 0) // 2]
     median: np.ndarray = np.nan_to_num(middle).reshape(h, w)
     return median
-
-
-def _weighted_median(values: Float64[np.ndarray, " n"], weights: Float64[np.ndarray, " n"]) -> float:
-    order = np.argsort(values)
-    return float(values[order][np.searchsorted(np.cumsum(weights[order]), 0.5 * weights.sum())])

@@ -169,6 +169,7 @@ _SHAPING = (
     "training/films.py",
     "training/samples.py",
     "film.py",
+    "registration.py",
     "stabilisation.py",
     "background.py",
     "fixed_pattern.py",
