@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -58,12 +59,14 @@ def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndar
     return read_shifted(motion.corrected(values, index), *split_drift(motion.drift[index])[1])
 
 
-def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, frames: range | None = None) -> Background:
+def temporal_background(
+    film: Film, motion: FilmMotion, *, report: Progress, frames: range | None = None, threads: int = 1
+) -> Background:
     """Median and spread over up to `SAMPLES` frames spread evenly over the film, or over consecutive `frames` of it
     (paper section "Motion Enhancer"); the canvas holds what these show.
 
     Works in strips of rows, so that memory does not grow with the film; `report(done, total)` is called for each
-    frame read.
+    frame read. `threads` only changes how long it takes.
     """
     h, w = film.height, film.width
     within = range(film.frame_count) if frames is None else frames
@@ -96,7 +99,7 @@ def temporal_background(film: Film, motion: FilmMotion, *, report: Progress, fra
                 stack[k, a - start : b - start, left : left + w] = part
             done += 1
             report(done, len(chosen) * len(starts))
-        middle, width = _order_statistics(stack)
+        middle, width = _order_statistics(stack, threads)
         median[start : start + height] = middle / scale + low
         spread[start : start + height] = width / scale
     seen = spread > 0
@@ -110,6 +113,7 @@ def _missing(dtype: np.dtype[Any]) -> float:
 
 def _order_statistics(
     stack: UInt16[np.ndarray, "n h w"] | Float32[np.ndarray, "n h w"],
+    threads: int,
 ) -> tuple[Float32[np.ndarray, "h w"], Float32[np.ndarray, "h w"]]:
     """Median and half the 16-84 % range over the values that are not missing; 0 where there are none.
 
@@ -120,7 +124,8 @@ def _order_statistics(
     middle, width = np.zeros(h * w, np.float32), np.zeros(h * w, np.float32)
     flat = stack.reshape(n, h * w)
     step = 1 << 15
-    for a in range(0, h * w, step):
+
+    def part(a: int) -> None:
         values = np.sort(np.ascontiguousarray(flat[:, a : a + step].T), axis=1)
         size = (values != missing).sum(axis=1) if values[:, -1].max() == missing else np.full(len(values), n)
         at = np.arange(len(values))
@@ -129,9 +134,12 @@ def _order_statistics(
             place = q * np.maximum(size - 1, 0)
             lower = place.astype(np.int64)
             upper = np.minimum(lower + 1, np.maximum(size - 1, 0))
-            part = (place - lower).astype(np.float32)
-            return np.where(size > 0, values[at, lower] * (1 - part) + values[at, upper] * part, 0)
+            share = (place - lower).astype(np.float32)
+            return np.where(size > 0, values[at, lower] * (1 - share) + values[at, upper] * share, 0)
 
         middle[a : a + step] = quantile(0.5)
         width[a : a + step] = (quantile(0.8413) - quantile(0.1587)) / 2
+
+    with ThreadPoolExecutor(threads, "background") as pool:
+        list(pool.map(part, range(0, h * w, step)))
     return middle.reshape(h, w), width.reshape(h, w)

@@ -4,22 +4,22 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
+from memtrack.blanks import without_blanks
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
 from memtrack.detector import detect
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
+from memtrack.lookahead import ahead
 from memtrack.models import CRITERIA, Model
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
@@ -27,9 +27,6 @@ from memtrack.pruning import faint, prune
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
-
-T = TypeVar("T")
-R = TypeVar("R")
 
 CELL_LENGTH_UM = 2.0
 """Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
@@ -95,7 +92,7 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
         EngineUnavailableError: the model's computing library is not installed.
     """
     _check(film, settings)
-    film = without_defects(film)
+    film = without_blanks(without_defects(film))
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
@@ -107,15 +104,20 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     }
     engine = model.engine(settings.engine, threads=settings.threads)
 
-    motion = measure_motion(scaled, stabilise=settings.stabilise, report=_at(report, Stage.STABILISING))
+    threads = settings.threads
+    stabilising = _at(report, Stage.STABILISING)
+    motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     done, count = 0, film.frame_count
     scene = Scene(
-        scaled, motion, report=_at(report, Stage.BACKGROUND), alive=lambda: report(Stage.DETECTING, done, count)
+        scaled,
+        motion,
+        report=_at(report, Stage.BACKGROUND),
+        alive=lambda: report(Stage.DETECTING, done, count),
+        threads=threads,
     )
     features = FilmFeatures(scene, model.card.features)
-    with ThreadPoolExecutor(settings.threads, "detector") as pool:
-        frames = (features.frame(i) for i in range(count))
-        found = ahead(pool, partial(detect, engine, model.card.decoder), frames, settings.threads + 1)
+    frames = (features.frame(i) for i in range(count))
+    with ahead(partial(detect, engine, model.card.decoder), frames, threads) as found:
         for i, on_grid in enumerate(found):
             done = i + 1
             report(Stage.DETECTING, done, count)
@@ -123,21 +125,6 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
             kept, counts = prune(candidates, **limits)
             drift_x, drift_y = motion.drift[i] / factors
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
-
-
-def ahead(pool: Executor, work: Callable[[T], R], items: Iterator[T], depth: int) -> Iterator[R]:
-    """`map(work, items)` in the pool's threads, up to `depth` items ahead of the caller, which makes the items."""
-    waiting: deque[Future[R]] = deque()
-    try:
-        for item in items:
-            waiting.append(pool.submit(work, item))
-            if len(waiting) >= depth:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
-    finally:
-        for future in waiting:
-            future.cancel()
 
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:

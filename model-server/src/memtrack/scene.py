@@ -100,9 +100,15 @@ class Scene:
     """
 
     def __init__(
-        self, film: Film, motion: FilmMotion, *, report: Progress, alive: Callable[[], None] = lambda: None
+        self,
+        film: Film,
+        motion: FilmMotion,
+        *,
+        report: Progress,
+        alive: Callable[[], None] = lambda: None,
+        threads: int = 1,
     ) -> None:
-        self.film, self.motion = film, motion
+        self.film, self.motion, self._threads = film, motion, threads
         self._windows = Windows.of(film)
         self._whole_numbers = film.frame(0).dtype.kind == "u"
         self._stills = {0: self._made(0, report)}
@@ -162,10 +168,13 @@ class Scene:
 
     def _made(self, number: int, report: Progress) -> Still:
         window = self._windows.window(number)
-        background = temporal_background(self.film, self.motion, report=report, frames=window)
+        background = self._background(window, report)
         if number == 0:  # told once, so that all backgrounds are of the same frames
             pattern = fixed_pattern(self.film, self.motion, background, window)
             if pattern is not None:
                 self.motion = replace(self.motion, pattern=pattern)
-                background = temporal_background(self.film, self.motion, report=report, frames=window)
+                background = self._background(window, report)
         return Still.of(background, whole_numbers=self._whole_numbers)
+
+    def _background(self, window: range, report: Progress) -> Background:
+        return temporal_background(self.film, self.motion, report=report, frames=window, threads=self._threads)

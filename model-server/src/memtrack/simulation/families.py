@@ -112,6 +112,9 @@ FAMILIES: dict[str, Callable[[Recipe, np.random.Generator], Recipe]] = {
     "specks": _varied(variations.specks, 0.75),
     "brief": _varied(variations.brief, 0.4),
     "captioned": _varied(variations.captioned, 0.5),
+    "passing": _varied(variations.passing, 0.5),
+    "packed": _varied(variations.packed, 0.5),
+    "subtracted": _varied(variations.subtracted, 0.5),
 }
 HELD_OUT = ("foam", "granular")
 """Families that only validation films are drawn from."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -15,6 +15,8 @@ from memtrack.simulation import scenes
 from memtrack.simulation.bacteria import bacteria
 from memtrack.simulation.captions import burn_in
 from memtrack.simulation.optics import Look, draw
+from memtrack.simulation.passing import passing_body
+from memtrack.simulation.processing import through_video, without_background
 from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import World, swim
 from memtrack.simulation.truth import truth_of
@@ -58,9 +60,23 @@ def simulate(recipe: Recipe, seed: int) -> SimulatedFilm:
     frames = np.stack([_expose(recipe, scene.frame(i) + layers[i], lamp[i], rng) for i in range(n)])
     if recipe.caption:
         burn_in(frames, recipe.frame_interval_seconds, rng)
+    known = recipe
+    if recipe.video:
+        packed = through_video(frames)
+        # What the packing changes is noise to an observer.
+        change = float(np.std(packed.astype(np.float32) - frames))
+        frames, known = packed, replace(recipe, read_noise=float(np.hypot(recipe.read_noise, change)))
+    if recipe.subtracted:
+        frames = without_background(frames, _sign(recipe), rng)
     calibration = Calibration(recipe.pixel_size_um, recipe.frame_interval_seconds)
-    truth = truth_of(recipe, paths, drift, scene.still_medium, calibration)
+    truth = truth_of(known, paths, drift, scene.still_medium, calibration)
     return SimulatedFilm(ArrayFilm(frames, calibration), truth, drift, recipe)
+
+
+def _sign(recipe: Recipe) -> int:
+    """1 where all bacteria are brighter than the medium at any depth, -1 where all are darker, else 0."""
+    signs = {int(np.sign(look.contrast)) if not (look.flip or look.relief) else 0 for look in recipe.looks}
+    return signs.pop() if len(signs) == 1 else 0
 
 
 class _Scene:
@@ -85,6 +101,18 @@ class _Scene:
         self.light = (1 + recipe.shading * (across + bow * across * across)).astype(np.float32)
         self._prepare_wobble(h, w, rng)
         self._prepare_clutter(rng)
+        self.bodies = [
+            passing_body(
+                recipe.width,
+                recipe.height,
+                recipe.frames,
+                recipe.scale,
+                recipe.passing_contrast * float(rng.lognormal(0, 0.4)),
+                recipe.passing_speed * float(rng.lognormal(0, 0.4)),
+                rng,
+            )
+            for _ in range(recipe.passing)
+        ]
 
     def _prepare_wobble(self, h: int, w: int, rng: np.random.Generator) -> None:
         recipe = self.recipe
@@ -117,6 +145,8 @@ class _Scene:
         for walk, look in self.blobs:
             x_now, y_now = walk[i] + self.drift[i]
             draw(out, look, float(x_now), float(y_now), 0.0, 0.0)
+        for body in self.bodies:
+            body.draw(out, i, self.drift[i])
         lit: np.ndarray = (out + np.float32(recipe.level)) * self.light
         return lit
 

@@ -17,9 +17,11 @@ class Recipe:
     of the uneven light. flicker: relative standard deviation of the lamp, lamp_drift: its slow change over the film.
     drift_per_frame: mean (x, y). jitter: of the stage, per axis and frame. jump: one sudden move of the stage. wobble:
     reach of fibre movement. restless: slow change of the scene, as a share of it. clutter: moving blurred blobs, their
-    contrast in grey levels and their flow in pixels a frame. shutter: share of a frame's time the camera sees.
+    contrast in grey levels and their flow in pixels a frame. passing: bodies of up to 100 px that cross the field,
+    the contrast of their grain and their speed in pixels a frame. shutter: share of a frame's time the camera sees.
     read_noise, shot_noise: sd in grey levels, the second at full scale. decoys: static rods that look like bacteria.
-    jpeg: quality, 0 for none. caption: a clock and a scale bar are burnt in.
+    jpeg: quality, 0 for none. caption: a clock and a scale bar are burnt in. video: the film was packed as MPEG-4 (8
+    bits only). subtracted: its mean or median was subtracted from it.
     """
 
     width: int = 320
@@ -43,6 +45,9 @@ class Recipe:
     clutter: int = 0
     clutter_contrast: float = 5.0
     clutter_flow: float = 0.0
+    passing: int = 0
+    passing_contrast: float = 15.0
+    passing_speed: float = 1.0
     shutter: float = 0.0
     read_noise: float = 3.0
     shot_noise: float = 3.0
@@ -51,6 +56,8 @@ class Recipe:
     dust: float = 0.0
     jpeg: int = 0
     caption: bool = False
+    video: bool = False
+    subtracted: bool = False
     speed_um_s: float = 10.0
     depth_spread: float = 0.6
     gaits: tuple[Gait, ...] = ()

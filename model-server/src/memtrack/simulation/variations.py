@@ -64,5 +64,29 @@ def captioned(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     return replace(recipe, caption=True)
 
 
+def passing(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """One to four large bodies pass through the field, whose grain is at most as strong as the bacteria."""
+    contrasts = [abs(look.contrast) for look in (*recipe.looks, *recipe.decoy_looks)]
+    usual = float(np.median(contrasts)) if contrasts else 30.0
+    return replace(
+        recipe,
+        passing=int(rng.integers(1, 5)),
+        passing_contrast=usual * float(rng.uniform(0.15, 1.0)),
+        passing_speed=float(np.exp(rng.uniform(np.log(0.1), np.log(5)))),
+    )
+
+
+def packed(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """A film that was packed as MPEG-4."""
+    return replace(recipe, video=True, bits=8, jpeg=0)
+
+
+def subtracted(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """A film on a still stage whose mean or median was subtracted from every frame."""
+    return replace(
+        recipe, subtracted=True, drift_per_frame=(0.0, 0.0), jump=0.0, jitter=min(recipe.jitter, 0.05), bits=8, jpeg=0
+    )
+
+
 def _like(look: Look, rng: np.random.Generator) -> Look:
     return replace(look, contrast=look.contrast * float(rng.lognormal(0, 0.4)))

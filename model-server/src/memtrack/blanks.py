@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blank parts of a film: the black around a round field, bars at the sides. Their edges are no texture of the scene.
+
+Told by what no scene does: at the border of the frame a part stays at the film's darkest or brightest value, and ends
+at a sharp step. It is filled with what surrounds it, out of focus, so that no later step needs to know of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from jaxtyping import Bool, Float32, Int, Shaped
+
+from memtrack.film import Calibration, Film
+
+Frame = Shaped[np.ndarray, "h w"]
+
+SAMPLES = 24
+FLAT = 0.02
+"""Share of the film's range of grey levels within which a blank part stays: the black of a video is not quite black."""
+STEP = 0.15
+"""Share of that range that the step around a blank part exceeds."""
+LEAST, MOST = 0.003, 0.6
+"""Shares of the frame: a smaller part is left alone, and where more is blank it is the kind of image."""
+SMOOTH_PX = 8.0
+
+
+@dataclass(frozen=True, slots=True)
+class FilledFilm:
+    """`film` with the pixels at (`rows`, `columns`) replaced by `values`, brightened and dimmed with the rest of each
+    frame, whose usual mean is `level`."""
+
+    film: Film
+    rows: Int[np.ndarray, " n"]
+    columns: Int[np.ndarray, " n"]
+    values: Float32[np.ndarray, " n"]
+    level: float
+
+    @property
+    def frame_count(self) -> int:
+        """Frames of the film."""
+        return self.film.frame_count
+
+    @property
+    def height(self) -> int:
+        """Height in pixels."""
+        return self.film.height
+
+    @property
+    def width(self) -> int:
+        """Width in pixels."""
+        return self.film.width
+
+    @property
+    def calibration(self) -> Calibration:
+        """The film's."""
+        return self.film.calibration
+
+    def frame(self, index: int) -> Frame:
+        """Frame `index`, a copy."""
+        filled = self.film.frame(index).copy()
+        filled[self.rows, self.columns] = 0
+        lit = float(filled.sum(dtype=np.float64)) / (filled.size - len(self.rows))
+        values = self.values * np.float32(lit / self.level)
+        if filled.dtype.kind == "u":
+            values = np.clip(np.rint(values), 0, np.iinfo(filled.dtype).max)
+        filled[self.rows, self.columns] = values
+        return filled
+
+
+def without_blanks(film: Film) -> Film:
+    """`film`, filled where parts of it are blank; the same object where none are."""
+    chosen = np.unique(np.linspace(0, film.frame_count - 1, SAMPLES).astype(int))
+    lowest = film.frame(0).astype(np.float32)
+    highest, total = lowest.copy(), np.zeros_like(lowest)
+    for i in chosen:
+        frame = film.frame(int(i)).astype(np.float32)
+        np.minimum(lowest, frame, out=lowest)
+        np.maximum(highest, frame, out=highest)
+        total += frame
+    blank = _blank(lowest, highest, total / len(chosen))
+    if not LEAST <= blank.mean() <= MOST:
+        return film
+    mean = total / np.float32(len(chosen))
+    level = float(mean[~blank].mean())
+    if not level > 0:
+        return film
+    rows, columns = np.nonzero(blank)
+    return FilledFilm(film, rows, columns, _surroundings(mean, blank)[blank], level)
+
+
+def _blank(
+    lowest: Float32[np.ndarray, "h w"], highest: Float32[np.ndarray, "h w"], mean: Float32[np.ndarray, "h w"]
+) -> Bool[np.ndarray, "h w"]:
+    """Parts at the border that stay at one end of the film's range and end at a step; with one pixel around them."""
+    bottom, top = float(lowest.min()), float(highest.max())
+    flat, step = FLAT * (top - bottom), STEP * (top - bottom)
+    blank = np.zeros(mean.shape, bool)
+    if not np.isfinite(step) or step <= 0:
+        return blank
+    for end, stays in ((bottom, highest <= bottom + flat), (top, lowest >= top - flat)):
+        count, labels, statistics, _ = cv2.connectedComponentsWithStats(stays.astype(np.uint8))
+        for number in range(1, count):
+            x, y, w, h, area = statistics[number]
+            at_border = x == 0 or y == 0 or x + w == mean.shape[1] or y + h == mean.shape[0]
+            if area < LEAST * mean.size or not at_border:
+                continue
+            part = (labels == number).astype(np.uint8)
+            inner, outer = (cv2.dilate(part, np.ones((edge, edge), np.uint8)) > 0 for edge in (5, 9))
+            rim = outer & ~inner
+            if rim.any() and abs(float(np.quantile(np.abs(mean[rim] - end), 0.25))) > step:
+                blank |= cv2.dilate(part, np.ones((3, 3), np.uint8)) > 0
+    return blank
+
+
+def _surroundings(mean: Float32[np.ndarray, "h w"], blank: Bool[np.ndarray, "h w"]) -> Float32[np.ndarray, "h w"]:
+    """At each blank pixel what the nearest pixel that is not blank shows, smoothed over its neighbours."""
+    lit = (~blank).astype(np.float32)
+    weight = cv2.GaussianBlur(lit, (0, 0), SMOOTH_PX)
+    smooth = cv2.GaussianBlur(mean * lit, (0, 0), SMOOTH_PX) / np.maximum(weight, 1e-6)
+    _, nearest = cv2.distanceTransformWithLabels(blank.astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    of_label = np.zeros(int(nearest.max()) + 1, np.float32)
+    of_label[nearest[~blank]] = smooth[~blank]
+    return of_label[nearest]

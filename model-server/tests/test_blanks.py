@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import numpy as np
+import pytest
+
+from memtrack.blanks import FilledFilm, without_blanks
+from memtrack.film import ArrayFilm, Film
+from memtrack.simulation.scenes import mottled
+
+SHAPE = (120, 160)
+Y, X = np.mgrid[: SHAPE[0], : SHAPE[1]]
+ROUND = np.hypot(X - 80, Y - 60) > 56
+BARS = (X < 20) | (X >= 150)
+
+
+def film(count: int = 10, *, level: float = 110, lamp: float = 0.0) -> np.ndarray:
+    """Grain with noise; a bright cell of 4 px swims to the right; the lamp dims by `lamp` over the film."""
+    rng = np.random.default_rng(4)
+    scene = mottled(*SHAPE, 1.0, rng) * 10 + level
+    frames = []
+    for i in range(count):
+        cell = 80 * np.exp(-((X - 30 - 5 * i) ** 2 + (Y - 60) ** 2) / 8)
+        frames.append((scene + cell + rng.normal(0, 2, SHAPE)) * (1 - lamp * i / count))
+    return np.clip(np.rint(frames), 0, 255).astype(np.uint8)
+
+
+def filled(of: Film) -> np.ndarray:
+    """Which pixels are filled."""
+    out = np.zeros((of.height, of.width), bool)
+    found = without_blanks(of)
+    if isinstance(found, FilledFilm):
+        out[found.rows, found.columns] = True
+    return out
+
+
+@pytest.mark.parametrize("where", [ROUND, BARS], ids=["round field", "bars"])
+@pytest.mark.parametrize("value", [0, 255])
+def test_a_blank_part_is_filled_with_its_surroundings(where: np.ndarray, value: int) -> None:
+    frames = film()
+    frames[:, where] = value
+    mended = without_blanks(ArrayFilm(frames)).frame(3)
+    assert mended.dtype == np.uint8
+    assert mended[where].min() > 85
+    assert mended[where].max() < 135
+    marked = filled(ArrayFilm(frames))
+    assert marked[where].all()
+    assert marked[~where].mean() < 0.06
+    np.testing.assert_array_equal(mended[~marked], frames[3][~marked])
+
+
+def test_the_filling_dims_with_the_lamp() -> None:
+    frames = film(lamp=0.3)
+    frames[:, BARS] = 0
+    mended = without_blanks(ArrayFilm(frames))
+    first, last = (float(mended.frame(i)[BARS].mean()) for i in (0, 9))
+    assert last / first == pytest.approx(1 - 0.3 * 0.9, abs=0.02)
+
+
+def test_black_that_a_video_file_made_uneven_is_blank_too() -> None:
+    frames = film()
+    frames[:, BARS] = np.random.default_rng(5).integers(0, 4, (10, int(BARS.sum())))
+    assert filled(ArrayFilm(frames))[BARS].all()
+
+
+@pytest.mark.parametrize("dtype", [np.uint16, np.float32])
+def test_deeper_images_are_filled_in_their_own_type(dtype: type) -> None:
+    frames: np.ndarray = film().astype(dtype) * 16
+    frames[:, ROUND] = 0
+    mended = without_blanks(ArrayFilm(frames)).frame(0)
+    assert mended.dtype == dtype
+    assert mended[ROUND].min() > 85 * 16
+
+
+@pytest.mark.parametrize(
+    "frames",
+    [
+        film(),
+        film(level=6),  # dark field: black nearly everywhere, without a step
+        np.full((5, *SHAPE), 100, np.uint8),
+        np.where((X < 6) & (Y < 6), 0, film()).astype(np.uint8),  # a corner
+        np.where(np.hypot(X - 80, Y - 60) < 20, 0, film()).astype(np.uint8),  # inside the field: an object
+        np.where(np.hypot(X - 80, Y - 60) > 30, 0, film()).astype(np.uint8),  # most of the frame
+        np.full((3, *SHAPE), np.nan, np.float32),
+    ],
+    ids=["grain", "dark field", "even", "corner", "object", "most", "nan"],
+)
+def test_what_is_not_blank_is_left_alone(frames: np.ndarray) -> None:
+    whole = ArrayFilm(frames)
+    assert without_blanks(whole) is whole
+
+
+def test_a_part_that_is_black_for_a_while_is_not_blank() -> None:
+    frames = film()
+    frames[:5, BARS] = 0
+    whole = ArrayFilm(frames)
+    assert without_blanks(whole) is whole

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from memtrack.errors import ModelNotFoundError, SettingsError
+from memtrack.motion import MOTION
+from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
+from memtrack.training.films import SimulatedSet
+from memtrack.training.recipe import train
+from memtrack.training.samples import FilmSamples
+from memtrack.training.train import Workspace, optimise
+from spots import samples
+
+
+def small_training() -> tuple[TrainingConfig, list[FilmSamples]]:
+    """A training of a few seconds' work that leaves a checkpoint of iteration 3."""
+    films = [samples([[20, 37, 0, 0], [40, 12, 2, 0]])]
+    channels = len(MOTION.channels)
+    films = [replace(films[0], features=np.repeat(films[0].features, 5, axis=1)[:, :channels])]
+    model = ModelSettings("a", widths=(4, 4, 4, 4), depths=(1, 1, 1))
+    steps = Optimisation(iterations=6, batch=2, crop=48, warm_up=2, checkpoint_every=3, bfloat16=False)
+    simulated = (SimulatedSet("water", 1, 1),), (SimulatedSet("water", 1, 2),)
+    return TrainingConfig(model, *simulated, optimisation=steps), films
+
+
+def silent(line: str) -> None:
+    pass
+
+
+def test_a_missing_model_to_start_from_is_said_before_films_are_made(tmp_path: Path) -> None:
+    config, _ = small_training()
+    config = replace(config, model=replace(config.model, start_from="nobody"))
+    workspace = Workspace(tmp_path)
+    with pytest.raises(ModelNotFoundError, match="there is no model nobody"):
+        train(config, workspace, tmp_path, base=tmp_path, device="cpu", workers=1, report=silent)
+    assert not workspace.samples.exists()
+
+
+def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    whole = optimise(config, films, workspace, "cpu", silent).state_dict()
+    assert workspace.checkpoint.is_file()
+    resumed = optimise(config, films, workspace, "cpu", silent).state_dict()
+    assert set(whole) == set(resumed)
+    for name, value in whole.items():
+        torch.testing.assert_close(value, resumed[name])
+
+
+def test_a_checkpoint_of_another_recipe_is_refused_before_films_are_made(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    optimise(config, films, workspace, "cpu", silent)
+    other = replace(config, training=(SimulatedSet("water", 2, 1),))
+    with pytest.raises(SettingsError, match=r"checkpoint\.pt is of a training by another recipe; delete it, or give"):
+        train(other, workspace, tmp_path, base=tmp_path, device="cpu", workers=1, report=silent)
+    assert not workspace.samples.exists()
+
+
+def test_a_training_from_the_start_begins_its_curve_anew(tmp_path: Path) -> None:
+    config, films = small_training()
+    workspace = Workspace(tmp_path)
+    for _ in range(2):
+        optimise(config, films, workspace, "cpu", silent)
+        workspace.checkpoint.unlink()
+    assert len((tmp_path / "loss.csv").read_text(encoding="utf-8").splitlines()) == 2
