@@ -48,10 +48,10 @@ def main() -> None:
     motion = timed("stabilisation", n, lambda: measure_motion(film, stabilise=True, report=silent))
     scene = timed("background", n, lambda: Scene(film, motion, report=silent))
     made = FilmFeatures(scene, model.card.features)
-    features = timed("features", n, lambda: [padded(made.frame(i)) for i in range(n)])
+    features = timed("features", n, lambda: [made.channels(i) for i in range(n)])
     engine, decoder = model.engine(), model.card.decoder
-    engine.run(features[0])
-    maps = timed("net", n, lambda: [engine.run(f) for f in features])
+    engine.run(padded(features[0]))
+    maps = timed("net", n, lambda: [engine.run(padded(f)) for f in features])
     found = timed("decoding", n, lambda: [decoder.decode(m, film.height, film.width) for m in maps])
     limits: dict[str, Any] = {"thresholds": model.card.thresholds["max_f1"], "max_size_px": 35.0, "nms_iou": 0.7}
     timed("pruning", n, lambda: [faint(d, prune(d, **limits)[0], **limits) for d in found])

@@ -78,6 +78,7 @@ def test_nothing_is_found_in_the_padding() -> None:
 
 def test_features_are_padded_with_neutral_values() -> None:
     features = np.zeros((2, 17, 16), np.uint8)
+    padded(np.full((2, 20, 16), 7, np.uint8))  # another film of the same size once padded
     out = padded(features)
     assert out.shape == (2, 32, 16)
     assert (out[:, 17:] == NEUTRAL).all()

@@ -7,6 +7,8 @@ of any level is there. So the levels do not share out the score of one that lies
 
 from __future__ import annotations
 
+import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -14,11 +16,12 @@ import numpy as np
 from jaxtyping import Float32, Float64, UInt8
 
 from memtrack.boxes import square_boxes
-from memtrack.channels import NEUTRAL
+from memtrack.channels import NEUTRAL, Channel
 from memtrack.detections import Detections
 from memtrack.neighbours import BLOCK, blocks, led_by_the_best
 
 Maps = Float32[np.ndarray, "outputs rows columns"]
+Features = UInt8[np.ndarray, "channel height width"] | Sequence[Channel]
 
 ALIGNMENT = 16
 MIN_CANDIDATES = 1500
@@ -109,14 +112,30 @@ def _squared_distances(
     return squares
 
 
-def padded(features: UInt8[np.ndarray, "channel height width"]) -> UInt8[np.ndarray, "channel y x"]:
-    """Features with neutral rows and columns added below and to the right, up to multiples of `ALIGNMENT`."""
-    _, h, w = features.shape
-    out = np.full((len(features), -h % ALIGNMENT + h, -w % ALIGNMENT + w), NEUTRAL, np.uint8)
-    out[:, :h, :w] = features
-    return out
+class _Room(threading.local):
+    """Where a thread brings channels together: new room for each frame would take longer than filling it."""
+
+    size = (0, 0, 0)
+    array = np.empty(0, np.uint8)
 
 
-def detect(engine: Engine, decoder: Decoder, features: UInt8[np.ndarray, "channel height width"]) -> Detections:
+_room = _Room()
+
+
+def padded(channels: Features) -> UInt8[np.ndarray, "channel y x"]:
+    """Channels of one size with neutral rows and columns added below and to the right, up to multiples of `ALIGNMENT`.
+
+    The array is the thread's own, until it calls this again.
+    """
+    h, w = channels[0].shape
+    if _room.size != (len(channels), h, w):
+        shape = len(channels), -h % ALIGNMENT + h, -w % ALIGNMENT + w
+        _room.size, _room.array = (len(channels), h, w), np.full(shape, NEUTRAL, np.uint8)
+    for number, channel in enumerate(channels):
+        _room.array[number, :h, :w] = channel
+    return _room.array
+
+
+def detect(engine: Engine, decoder: Decoder, channels: Features) -> Detections:
     """Candidates of one frame; no filter but the decoder's floor has been applied."""
-    return decoder.decode(engine.run(padded(features)), *features.shape[1:])
+    return decoder.decode(engine.run(padded(channels)), *channels[0].shape)

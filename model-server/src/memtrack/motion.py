@@ -67,6 +67,10 @@ class FilmFeatures:
         self._reach = max([abs(o) for c in spec.channels if _NEIGHBOUR.fullmatch(c) for o in _offsets(c)], default=0)
 
     def frame(self, index: int) -> UInt8[np.ndarray, "channel height width"]:
+        """The `channels` of frame `index` as one array."""
+        return np.stack(self.channels(index))
+
+    def channels(self, index: int) -> list[Channel]:
         """Channels of frame `index`, on the grid of its aligned frame: a place found at (x, y) lies at
         (x, y) + the rest of the frame's drift (`split_drift`) of the film's own frame."""
         aligned: list[Image] = []
@@ -79,7 +83,7 @@ class FilmFeatures:
         channels = [self._channel(name, index, current) for name in self.spec.channels]
         for old in [k for k in self._known if abs(k - index) > self._reach]:
             del self._known[old]
-        return np.stack(channels)
+        return channels
 
     def _channel(self, name: str, index: int, current: Callable[[], Image]) -> Channel:
         if _NEIGHBOUR.fullmatch(name):

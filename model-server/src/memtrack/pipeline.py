@@ -116,7 +116,7 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
         threads=threads,
     )
     features = FilmFeatures(scene, model.card.features)
-    frames = (features.frame(i) for i in range(count))
+    frames = (features.channels(i) for i in range(count))
     with ahead(partial(detect, engine, model.card.decoder), frames, threads) as found:
         for i, on_grid in enumerate(found):
             done = i + 1

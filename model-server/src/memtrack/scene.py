@@ -112,6 +112,7 @@ class Scene:
         self._windows = Windows.of(film)
         self._whole_numbers = film.frame(0).dtype.kind == "u"
         self._stills = {0: self._made(0, report)}
+        self._slopes: tuple[tuple[int, tuple[int, int]], Slopes] | None = None
         self._alive = alive
 
     def place(self, index: int) -> tuple[int, int]:
@@ -132,8 +133,12 @@ class Scene:
 
     def slopes(self, index: int) -> Slopes:
         """Slopes of the median; between two windows' backgrounds, of the nearer one."""
-        still = self._still(max(self._windows.near(index), key=lambda near: near[1])[0])
-        return still.slopes.seen(*still.background.window(self.place(index), self.film.height, self.film.width))
+        number, place = max(self._windows.near(index), key=lambda near: near[1])[0], self.place(index)
+        if self._slopes is None or self._slopes[0] != (number, place):  # the same for many frames of a slow drift
+            still = self._still(number)
+            window = still.background.window(place, self.film.height, self.film.width)
+            self._slopes = (number, place), still.slopes.seen(*window)
+        return self._slopes[1]
 
     def noise(self, index: int) -> float:
         """What a deviation must exceed, in grey levels."""

@@ -36,12 +36,14 @@ Products = Float32[np.ndarray, "3 _ _"]
 class Slopes:
     """Slopes of a background along x and y, in units of the noise a pixel, and what displacements need of them.
 
-    weighted: slopes times the weight of their pixel. power: windows' means of weighted times unweighted slopes. chance:
-    of weighted slopes squared, to which the covariance of what the noise adds is proportional.
+    weighted: slopes times the weight of their pixel; halves: these at half the size. power: windows' means of weighted
+    times unweighted slopes. chance: of weighted slopes squared, to which the covariance of what the noise adds is
+    proportional.
     """
 
     slopes: tuple[Image, Image]
     weighted: tuple[Image, Image]
+    halves: tuple[Coarse, Coarse]
     power: Products
     chance: Products
 
@@ -57,11 +59,12 @@ class Slopes:
         u, v = x * weight, y * weight
         p, q, r, s = (_half(image) for image in (x, y, u, v))
         power = np.stack([_windowed(product) for product in (r * p, r * q, s * q)])
-        return cls((x, y), (u, v), power, np.stack([_windowed(product) for product in (r * r, r * s, s * s)]))
+        chance = np.stack([_windowed(product) for product in (r * r, r * s, s * s)])
+        return cls((x, y), (u, v), (r, s), power, chance)
 
     def seen(self, rows: slice, columns: slice) -> Slopes:
         """Of a part of the background."""
-        (x, y), (u, v) = self.slopes, self.weighted
+        (x, y), (u, v) = self.slopes, (image[rows, columns] for image in self.weighted)
         h, w = (max(1, (s.stop - s.start) // COARSE) for s in (rows, columns))
         # A window is so much wider than a coarse pixel that the part need not begin on one.
         top, left = (
@@ -71,7 +74,8 @@ class Slopes:
         coarse = np.s_[:, top : top + h, left : left + w]
         return Slopes(
             (x[rows, columns], y[rows, columns]),
-            (u[rows, columns], v[rows, columns]),
+            (u, v),
+            (_half(u), _half(v)),
             self.power[coarse],
             self.chance[coarse],
         )
@@ -86,7 +90,7 @@ def take_out_wobble(deviation: Image, background: Slopes) -> None:
     """
     (x, y), (a, b, c) = background.slopes, background.power
     small = _half(np.clip(deviation, -CLIPPED, CLIPPED))
-    u, v = (_half(image) for image in background.weighted)
+    u, v = background.halves
     along_x, along_y = _windowed(u * small), _windowed(v * small)
     turned = small[::-1, ::-1]
     by_chance = _significance(background, _windowed(u * turned), _windowed(v * turned))
@@ -99,8 +103,9 @@ def take_out_wobble(deviation: Image, background: Slopes) -> None:
     scale = share / (a * c - b * b)
     size = deviation.shape[::-1]
     right, down = (cv2.resize(s * scale, size) for s in (c * along_x - b * along_y, a * along_y - b * along_x))
-    deviation -= x * right
-    deviation -= y * down
+    for slope, moved in ((x, right), (y, down)):
+        moved *= slope
+        deviation -= moved
 
 
 def _significance(background: Slopes, along_x: Coarse, along_y: Coarse) -> float:
