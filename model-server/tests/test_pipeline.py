@@ -223,6 +223,16 @@ def test_a_long_film_is_answered_in_order_while_its_backgrounds_are_made(model: 
     assert [stage for stage, _, _ in calls] == sorted(stage for stage, _, _ in calls)
 
 
+def test_frames_without_light_are_told(gel: SimulatedFilm, model: Model) -> None:
+    dark = gel.film.frames.copy()
+    dark[3:5] //= 20
+    said: list[str] = []
+    list(detect_film(ArrayFilm(dark), model, DetectionSettings(), lambda *_: None, said.append))
+    assert len(said) == 1
+    assert said[0].startswith(f"2 of {len(dark)} frames are far darker")
+    assert said[0].endswith("the first is number 4.")
+
+
 @pytest.mark.parametrize("stage", [Stage.STABILISING, Stage.BACKGROUND, Stage.DETECTING])
 def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, model: Model) -> None:
     def report(at: Stage, done: int, total: int) -> None:

@@ -97,7 +97,12 @@ def _boxes(detections: Detections) -> list[pb.Detection]:
 
 
 def summary(
-    request: FilmRequest, model: Model, counts: FilterCounts, film_sha256: str, seconds: Mapping[Stage, float]
+    request: FilmRequest,
+    model: Model,
+    counts: FilterCounts,
+    film_sha256: str,
+    seconds: Mapping[Stage, float],
+    warnings: Sequence[str],
 ) -> pb.DetectFilmResponse:
     """What was kept and dropped over the whole film."""
     return pb.DetectFilmResponse(
@@ -114,6 +119,7 @@ def summary(
             stage_times=[
                 pb.StageTime(stage=f"STAGE_{stage.name}", seconds=spent) for stage, spent in sorted(seconds.items())
             ],
+            warnings=warnings,
         )
     )
 

@@ -79,12 +79,19 @@ class DetectionSettings:
             raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
 
 
-def detect_film(film: Film, model: Model, settings: DetectionSettings, report: Report) -> Iterator[FrameDetections]:
+def detect_film(
+    film: Film,
+    model: Model,
+    settings: DetectionSettings,
+    report: Report,
+    warn: Callable[[str], None] = lambda sentence: None,
+) -> Iterator[FrameDetections]:
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
     Reads the film up to four times through `film.frame`, some of its frames once more, and holds a few frames of it.
     `report(stage, done, total)` is called at least once a frame in every stage and may raise `CancelledError`. The
-    backgrounds of a long film after the first are made while detecting, each when its frames come.
+    backgrounds of a long film after the first are made while detecting, each when its frames come. `warn(sentence)` is
+    called with what the user should know about the film.
 
     Raises:
         FilmError: the film holds values that are not finite.
@@ -108,6 +115,11 @@ def detect_film(film: Film, model: Model, settings: DetectionSettings, report: R
     stabilising = _at(report, Stage.STABILISING)
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     done, count = 0, film.frame_count
+    if motion.unlit:
+        warn(
+            f"{len(motion.unlit)} of {count} frames are far darker or brighter than the others and are not used; the "
+            f"first is number {min(motion.unlit) + 1}."
+        )
     scene = Scene(
         scaled,
         motion,

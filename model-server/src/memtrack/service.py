@@ -117,8 +117,10 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
             call.send(messages.accepted(request, model, film))
             progress = _Progress(call, film, self._costs)
             film_sha256 = _receive(call, requests, film, progress)
+            warnings: list[str] = []
             settings = dataclasses.replace(request.settings, threads=self._threads)
-            frames = cast("Generator[FrameDetections]", detect_film(film, model, settings, progress.report))
+            work = detect_film(film, model, settings, progress.report, warnings.append)
+            frames = cast("Generator[FrameDetections]", work)
             # Closed before the spool is: the method's threads may be some frames ahead.
             with self._turns.turn(progress.wait), contextlib.closing(frames):
                 progress.clock.restart()
@@ -126,7 +128,7 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
         self._costs.learn(progress.clock.seconds, film.geometry.pixels)
         size = f"{film.frame_count} frames of {film.width} x {film.height}"
         _log.info("%s: %d detections in %.1f s", size, counts.kept, sum(progress.clock.seconds.values()))
-        return messages.summary(request, model, counts, film_sha256, progress.clock.seconds)
+        return messages.summary(request, model, counts, film_sha256, progress.clock.seconds, warnings)
 
 
 def _header(requests: Iterator[pb.DetectFilmRequest]) -> pb.FilmHeader:

@@ -107,6 +107,13 @@ def test_extreme_films_go_through(server: RunningServer, film: np.ndarray) -> No
         assert np.isfinite(rows(frame.detections)).all()
 
 
+def test_what_only_the_frames_tell_stands_in_the_summary(server: RunningServer) -> None:
+    film = np.full((24, 64, 64), 100, np.uint8)
+    film[7] = 2
+    assert "the first is number 8" in server.detect(film).summary[0].warnings[0]
+    assert not server.detect(film[:7]).summary[0].warnings
+
+
 def test_an_all_zero_film_has_no_detections(server: RunningServer) -> None:
     assert server.detect(np.zeros((12, 64, 64), np.uint16)).summary[0].kept == 0
 

@@ -7,6 +7,7 @@ import argparse
 import hashlib
 import sys
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -55,18 +56,24 @@ def run(options: argparse.Namespace) -> int:
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
     with open_film(options.film, Calibration(options.pixel_size_um, options.frame_interval_s)) as film:
-        for note in film.notes:
-            print(f"Note: {note}", file=sys.stderr)
+        _say(film.notes)
         line = _ProgressLine(film.frame_count, quiet=options.quiet)
         film_sha256 = _sha256(film, line)
-        frames = list(detect_film(film, model, settings, line.report))
+        learned: list[str] = []
+        frames = list(detect_film(film, model, settings, line.report, learned.append))
         line.end()
+        _say(learned)
         counts = sum((found.counts for found in frames), FilterCounts())
-        provenance = _provenance(options.film, film, film.notes, film_sha256, model, settings, counts)
+        provenance = _provenance(options.film, film, (*film.notes, *learned), film_sha256, model, settings, counts)
     for file in write_detections(options.out, frames, provenance):
         print(file)
     print(summary(counts, model, settings), file=sys.stderr)
     return 0
+
+
+def _say(notes: Iterable[str]) -> None:
+    for note in notes:
+        print(f"Note: {note}", file=sys.stderr)
 
 
 def summary(counts: FilterCounts, model: Model, settings: DetectionSettings) -> str:
