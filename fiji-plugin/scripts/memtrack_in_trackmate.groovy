@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Detects and tracks one film with MEMTrack inside TrackMate, and saves a TrackMate file. In Fiji: open it in the script editor, or
-//   ImageJ --headless --run memtrack_in_trackmate.groovy 'film="film.tif",output="film.xml",pixelSize=0.2475,frameInterval=0.0167'
+//   fiji --headless --run memtrack_in_trackmate.groovy 'film="film.tif",output="film.xml",pixelSize=0.2475,frameInterval=0.0167'
 #@ File film
 #@ File output
 #@ Double(label = "Pixel size (um); 0: the film's own", value = 0) pixelSize

@@ -2,6 +2,7 @@
 package org.memtrack.client;
 
 import java.util.List;
+import java.util.stream.Stream;
 import org.memtrack.detection.FrameDetections;
 
 /**
@@ -14,5 +15,11 @@ import org.memtrack.detection.FrameDetections;
 public record DetectionResult(List<FrameDetections> frames, DetectionSummary summary, ModelInUse accepted) {
     public DetectionResult {
         frames = List.copyOf(frames);
+    }
+
+    /** What the user should know about the film and the settings, one sentence each. */
+    public List<String> warnings() {
+        return Stream.concat(accepted.warnings().stream(), summary.warnings().stream())
+                .toList();
     }
 }

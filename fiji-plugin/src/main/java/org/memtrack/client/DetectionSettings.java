@@ -12,13 +12,12 @@ import org.memtrack.video.RegionMask;
  * @param modelVersion version of the model; empty for its newest
  * @param criterion which of the model's stored thresholds to use
  * @param thresholds thresholds that take the place of the criterion's; null to use the criterion's
- * @param maxSizePx boxes wider or taller than this are dropped, pixels at the model's scale; null for the model's own (35
- *     in the paper)
- * @param nmsIou of two boxes whose intersection over union exceeds this, in (0, 1], the weaker is dropped; null for the
- *     model's own (0.7 in the paper)
+ * @param maxSizePx boxes wider or taller than this are dropped, pixels at the model's scale; null for 35, as in the paper
+ * @param nmsIou of two boxes whose intersection over union exceeds this, in [0, 1], the weaker is dropped; null for 0.7, as
+ *     in the paper
  * @param stabilise whether to measure and undo the drift of the stage before the temporal median
  * @param cellLengthPx length of a cell as it looks in this film, in pixels; the film is scaled by it, whatever its pixel
- *     size; null to go by the pixel size
+ *     size; null to go by the pixel size, at which cells are taken to be 2 um long, or without one not to scale
  * @param region where to report detections; null for everywhere
  */
 public record DetectionSettings(
@@ -44,9 +43,8 @@ public record DetectionSettings(
                     "A model's name has 1 to 64 of a-z, 0-9, '_', '.' and '-', not \"%s\"".formatted(model));
         }
         checkPositive("greatest size", maxSizePx);
-        checkPositive("overlap", nmsIou);
         checkPositive("cell length", cellLengthPx);
-        if (nmsIou != null && nmsIou > 1) {
+        if (nmsIou != null && !(nmsIou >= 0 && nmsIou <= 1)) {
             throw new IllegalArgumentException("The overlap must lie in 0 to 1, not " + nmsIou);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.client;
 
+import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 
@@ -17,6 +18,7 @@ import java.util.Map;
  * @param candidateFloor score below which the detector reports no candidate, in [0, 1]
  * @param filmSha256 SHA-256 of the samples as the server received them, hexadecimal
  * @param secondsByStage wall time of each stage, in seconds, by the stage's name, in order
+ * @param warnings what the user should know about the film that only its frames told, one sentence each
  */
 public record DetectionSummary(
         int frameCount,
@@ -28,7 +30,11 @@ public record DetectionSummary(
         long kept,
         double candidateFloor,
         String filmSha256,
-        Map<String, Double> secondsByStage) {
+        Map<String, Double> secondsByStage,
+        List<String> warnings) {
+    public DetectionSummary {
+        warnings = List.copyOf(warnings);
+    }
 
     /** One sentence for the user; an honest zero tells what lower thresholds would have let through. */
     public String describe(Thresholds thresholds) {
@@ -42,7 +48,7 @@ public record DetectionSummary(
                         thresholds.high());
         return String.format(
                 Locale.ROOT,
-                "%d detections above %s; %d between %.2f and the threshold",
+                "%d detections above %s; %d weaker boxes, down to %.2f and several on each cell, are not among them",
                 kept,
                 above,
                 nearMisses,

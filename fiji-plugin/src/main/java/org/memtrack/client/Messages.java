@@ -104,7 +104,8 @@ final class Messages {
                 message.getKept(),
                 message.getCandidateFloor(),
                 message.getFilmSha256(),
-                seconds);
+                seconds,
+                message.getWarningsList());
     }
 
     static ServerInfo info(GetServerInfoResponse message) {

@@ -18,9 +18,10 @@ import java.util.Map;
  *
  * @param created when, ISO 8601 in UTC
  * @param software name to version: the plug-in, the server, ImageJ, Java, the system
- * @param film name to value: title, file, sha256, width, height, frames, pixel size and frame interval
+ * @param film name to value: title, file (or what it was opened from and is no more), sha256, width, height, frames, pixel
+ *     size and frame interval
  * @param model name to value: name, version, sha256, engine, thresholds; empty when nothing was detected
- * @param settings name to value: all that was set for this run, defaults included
+ * @param settings name to value: all that was in force in this run, defaults and the selected region included
  * @param counts name to count: what the detector found, what each filter dropped, tracks and points
  * @param seconds stage of the detection to its wall time
  * @param warnings what the user was told, one sentence each
@@ -45,6 +46,7 @@ public record Provenance(
     public Provenance {
         // JSON that some other program wrote may lack them.
         software = software == null ? Map.of() : software;
+        film = film == null ? Map.of() : film;
         files = files == null ? Map.of() : files;
     }
 

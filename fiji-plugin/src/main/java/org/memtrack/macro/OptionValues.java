@@ -85,7 +85,7 @@ final class OptionValues {
 
     DetectorException wrong(TrackOption option, String expected) {
         return new DetectorException(
-                "\"%s=%s\" is not possible: give %s.".formatted(option.key(), text(option), expected));
+                "%s cannot be \"%s\": give %s.".formatted(option.bothNames(), text(option), expected));
     }
 
     private static DetectorException unknown(String key) {

@@ -34,7 +34,12 @@ public enum TrackOption {
             "how sure of a cell to be: maximum precision for few false ones, maximum F1 for few false and few missed ones",
             choices(Criterion.values(), Criterion::label)),
     MODEL("model", "Model", Kind.TEXT, "default", "name of the model, or default"),
-    PIXEL_SIZE("pixel_size", "Pixel size (um)", Kind.NUMBER, "", "edge of a pixel in um; the image's own if left out"),
+    PIXEL_SIZE(
+            "pixel_size",
+            "Pixel size (um)",
+            Kind.NUMBER,
+            "",
+            "edge of a pixel in um; the image's own if left out; with it cells are taken to be 2 um long, unless Cell length (cell_length) is given"),
     FRAME_INTERVAL(
             "frame_interval",
             "Frame interval (s)",
@@ -46,7 +51,7 @@ public enum TrackOption {
             "Cell length (px)",
             Kind.NUMBER,
             "",
-            "length of a cell as it looks in the film, in pixels; by it the film is brought to the model's scale"),
+            "length of a cell as it looks in the film, in pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is"),
     STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
     OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
 
@@ -74,19 +79,19 @@ public enum TrackOption {
             "Greatest size (px)",
             Kind.NUMBER,
             "",
-            "wider or taller boxes are dropped, pixels at the model's scale; the model's own if left out"),
+            "wider or taller boxes are dropped, pixels at the model's scale; 35 if left out"),
     NMS_IOU(
             "nms_iou",
             "Greatest overlap (IoU)",
             Kind.NUMBER,
             "",
-            "of two boxes that overlap more, 0 to 1, the weaker is dropped; the model's own if left out"),
+            "of two boxes that overlap more, 0 to 1, the weaker is dropped; 0.7 if left out"),
     MIN_LENGTH(
             "min_length",
             "Least track length (frames)",
             Kind.INTEGER,
             "",
-            "shorter tracks are dropped; the preset's, or half a short film, if left out"),
+            "shorter tracks are dropped; if left out, as Medium (preset) says, and at most half the film's frames"),
     MIN_LENGTH_SURE(
             "min_length_sure",
             "Least length of sure tracks (frames)",
@@ -94,7 +99,7 @@ public enum TrackOption {
             "",
             "likewise for tracks that are sure to be real, as the edge of the field cuts them off or their mean score is at least "
                     + TrackFilter.SURE_SCORE
-                    + "; min_length, or a quarter of the preset's, if left out"),
+                    + "; if left out, Least track length (min_length) where that is given, or else a quarter of that of other tracks"),
     MIN_SCORE(
             "min_score",
             "Least track score",
@@ -106,7 +111,7 @@ public enum TrackOption {
             "Look again for faint cells",
             Kind.SWITCH,
             "true",
-            "track what the thresholds drop too, and keep cells that travel and are found again and again; off in the paper, and where thresholds are given"),
+            "track what the thresholds drop too, and keep cells that travel and are found again and again; off in the paper, where thresholds are given, and where Interpolation (interpolation) is authors"),
     MAX_AGE(
             "max_age",
             "Maximum age (frames)",
@@ -124,7 +129,7 @@ public enum TrackOption {
             "IoU gate",
             Kind.NUMBER,
             number(SortSettings.DEFAULTS.iouGate()),
-            "least overlap, 0 to 1, of a detection with the place where its track is expected; for association=overlap"),
+            "least overlap, 0 to 1, of a detection with the place where its track is expected; used where Association by (association) is overlap"),
     ASSOCIATION(
             "association",
             "Association by",
@@ -182,6 +187,11 @@ public enum TrackOption {
     /** Name in the dialog. */
     public String label() {
         return label;
+    }
+
+    /** Both for messages, which users of the dialog and of macros get: "Least track length (min_length)". */
+    public String bothNames() {
+        return "%s (%s)".formatted(label.replaceFirst(" \\(.*\\)$", ""), key);
     }
 
     public Kind kind() {

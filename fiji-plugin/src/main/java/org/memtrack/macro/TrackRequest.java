@@ -4,6 +4,9 @@ package org.memtrack.macro;
 import static org.memtrack.macro.TrackOption.*;
 
 import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.OptionalDouble;
 import org.jspecify.annotations.Nullable;
@@ -74,9 +77,46 @@ public record TrackRequest(
         return settings.with(tracking.with(shorter));
     }
 
-    /** Who gives thresholds wants nothing below them. */
+    /**
+     * The options that say all of {@link #settingsFor}, whatever the defaults of another version are: those of the request,
+     * with the lengths and the second look that were in force.
+     */
+    public Map<String, String> optionsFor(int frameCount) {
+        TrackingSettings inForce = settingsFor(frameCount);
+        TrackFilter filter = inForce.tracking().filter();
+        Map<String, String> all = new LinkedHashMap<>(options);
+        all.put(MIN_LENGTH.key(), Integer.toString(filter.minimumLength()));
+        all.put(MIN_LENGTH_SURE.key(), Integer.toString(filter.minimumLengthIfSure()));
+        all.put(SECOND_LOOK.key(), Boolean.toString(inForce.secondLook()));
+        return all;
+    }
+
+    /** Where a film of that many frames is tracked in another way than the options say, one sentence each. */
+    public List<String> warningsFor(int frameCount) {
+        List<String> warnings = new ArrayList<>();
+        int inForce = settingsFor(frameCount).tracking().filter().minimumLength();
+        int usual = settings.tracking().filter().minimumLength();
+        if (inForce != usual) {
+            warnings.add(
+                    "The film is short: tracks of %d frames are kept, not only those of %d; %s sets another length."
+                            .formatted(inForce, usual, MIN_LENGTH.bothNames()));
+        }
+        if (!settings.secondLook() && Boolean.parseBoolean(options.get(SECOND_LOOK.key()))) {
+            warnings.add("%s is off, as %s."
+                    .formatted(
+                            SECOND_LOOK.bothNames(),
+                            settings.detection().thresholds() == null
+                                    ? INTERPOLATION.bothNames() + " is authors"
+                                    : "thresholds are given"));
+        }
+        return warnings;
+    }
+
+    /** Who gives thresholds wants nothing below them, and the authors look once. */
     private static boolean secondLook(OptionValues values) {
-        return values.flag(SECOND_LOOK) && thresholds(values) == null;
+        return values.flag(SECOND_LOOK)
+                && thresholds(values) == null
+                && values.choice(INTERPOLATION, Interpolation.class) == Interpolation.FILL_GAPS;
     }
 
     private static FilmOptions film(OptionValues values) {
@@ -110,8 +150,8 @@ public record TrackRequest(
             return null;
         }
         if (low.isEmpty() || medium.isEmpty() || high.isEmpty()) {
-            throw new DetectorException(
-                    "Only some thresholds are given: give threshold_low, threshold_medium and threshold_high, or none.");
+            throw new DetectorException("Only some thresholds are given: give all three, %s, %s and %s, or none."
+                    .formatted(THRESHOLD_LOW.bothNames(), THRESHOLD_MEDIUM.bothNames(), THRESHOLD_HIGH.bothNames()));
         }
         return new Thresholds(low.getAsDouble(), medium.getAsDouble(), high.getAsDouble());
     }

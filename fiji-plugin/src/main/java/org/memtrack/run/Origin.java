@@ -22,21 +22,27 @@ public final class Origin {
     /** Under what name the plug-in's version stands in every provenance. */
     static final String PLUGIN = "MEMTrack plug-in";
 
+    /** The file that holds the film. */
+    static final String FILE = "file";
+
+    /** The file or folder that a film came from which is in no file as it is. */
+    static final String OPENED_FROM = "opened_from";
+
     private Origin() {}
 
     /**
      * The provenance of a result.
      *
-     * @param options of the command, by key, enough to repeat the run
+     * @param settings of the command, by key, enough to repeat the run
      * @param warnings what the user was told
      */
-    public static Provenance of(Film film, TrackingResult result, Map<String, String> options, List<String> warnings) {
+    public static Provenance of(Film film, TrackingResult result, Map<String, ?> settings, List<String> warnings) {
         return new Provenance(
                 Instant.now().truncatedTo(ChronoUnit.SECONDS).toString(),
                 software(result),
                 film(film, result),
                 model(result.detection().accepted()),
-                new LinkedHashMap<>(options),
+                new LinkedHashMap<>(settings),
                 counts(result),
                 result.detection().summary().secondsByStage(),
                 warnings,
@@ -60,12 +66,15 @@ public final class Origin {
         FilmInfo info = film.info();
         Map<String, Object> values = new LinkedHashMap<>();
         values.put("title", info.title());
-        info.file().ifPresent(file -> values.put("file", file.toString()));
+        film.openedFrom()
+                .ifPresent(place -> values.put(info.file().isPresent() ? FILE : OPENED_FROM, place.toString()));
         values.put("sha256", result.detection().summary().filmSha256());
         values.put("width", info.width());
         values.put("height", info.height());
         values.put("frames", info.frameCount());
         values.put("first_frame", film.firstFrame());
+        // Other than the option first_frame of the settings.
+        values.put("frames_count_from", 0);
         values.put("samples", film.sampleType().name());
         info.pixelSizeMicrometres().ifPresent(size -> values.put("pixel_size_um", size));
         info.frameIntervalSeconds().ifPresent(interval -> values.put("frame_interval_s", interval));
@@ -95,6 +104,7 @@ public final class Origin {
         counts.put("overlapping", summary.overlapping());
         counts.put("outside_region", summary.outsideRegion());
         counts.put("detections", summary.kept());
+        counts.put("dropped_tracks", (long) result.droppedTracks());
         counts.put("tracks", (long) tracks.size());
         counts.put(
                 "points",

@@ -4,11 +4,13 @@ package org.memtrack.run;
 import java.io.IOException;
 import java.nio.file.AccessDeniedException;
 import java.nio.file.Files;
+import java.nio.file.InvalidPathException;
 import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.formats.Mdf;
@@ -33,11 +35,12 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
     /**
      * Where the results of a film will lie; the folder is made if it is missing.
      *
-     * @throws DetectorException when the folder cannot be made or written to, or holds files of these names that are not as
-     *     a run has left them, for example tracks that the user has made or corrected
+     * @throws DetectorException when the folder cannot be made or written to, holds the results of another film of that
+     *     name, or files of these names that are not as a run has left them, for example tracks that the user has made or
+     *     corrected
      */
-    public static ResultFiles in(Path folder, String title) {
-        String name = baseName(title);
+    public static ResultFiles in(Path folder, Film film) {
+        String name = baseName(film.info().title());
         ResultFiles files = new ResultFiles(
                 folder.resolve(name + ".xml"),
                 folder.resolve(name + ".csv"),
@@ -52,7 +55,7 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
             throw new DetectorException(
                     "The folder %s cannot be written to (%s): choose another one.".formatted(folder, reason(e)), e);
         }
-        files.checkReplaceable();
+        files.checkReplaceable(film);
         return files;
     }
 
@@ -79,7 +82,7 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
                 hashes.put(name(file), Sha256.of(staged.of(file)));
             }
             origin.with(hashes).write(staged.of(provenance));
-            checkReplaceable();
+            checkReplaceable(film);
             staged.moveTo(all());
         } catch (IOException e) {
             throw new DetectorException(
@@ -94,8 +97,17 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
         return provenance.resolveSibling("");
     }
 
-    private void checkReplaceable() {
-        Map<String, String> written = writtenByAnEarlierRun();
+    private void checkReplaceable(Film film) {
+        Optional<Provenance> earlier = earlierRun();
+        earlier.flatMap(ResultFiles::filmOf)
+                .filter(other -> isOfAnother(film, other))
+                .ifPresent(other -> {
+                    throw new DetectorException(
+                            "%s holds the results of another film of this name, %s: give another output folder."
+                                    .formatted(folder(), other));
+                });
+        // Those of an earlier version have no hashes.
+        Map<String, String> written = earlier.map(Provenance::files).orElse(Map.of());
         for (Path file : all()) {
             boolean ours = file.equals(provenance) ? !written.isEmpty() : hasHash(file, written.get(name(file)));
             if (Files.exists(file) && !ours) {
@@ -106,13 +118,40 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
         }
     }
 
-    /** Hashes of the files that an earlier run left, by name; empty when there was none, or one that noted no hashes. */
-    private Map<String, String> writtenByAnEarlierRun() {
+    /** What an earlier run noted; empty when there was none. */
+    private Optional<Provenance> earlierRun() {
         try {
-            Provenance earlier = Provenance.read(provenance);
-            return earlier.software().containsKey(Origin.PLUGIN) ? earlier.files() : Map.of();
+            return Optional.of(Provenance.read(provenance))
+                    .filter(earlier -> earlier.software().containsKey(Origin.PLUGIN));
         } catch (IOException e) {
-            return Map.of();
+            return Optional.empty();
+        }
+    }
+
+    /** The file or folder of the film of an earlier run; empty when it came from none, or from one on another system. */
+    private static Optional<Path> filmOf(Provenance earlier) {
+        Object place = earlier.film().getOrDefault(Origin.FILE, earlier.film().get(Origin.OPENED_FROM));
+        try {
+            return place instanceof String text
+                    ? Optional.of(Path.of(text)).filter(Path::isAbsolute)
+                    : Optional.empty();
+        } catch (InvalidPathException e) {
+            return Optional.empty();
+        }
+    }
+
+    /** Whether a file, or folder of pictures, holds another film; not when it is gone, since films are moved. */
+    private static boolean isOfAnother(Film film, Path place) {
+        Path own = film.openedFrom().orElse(place);
+        if (own.equals(place) || !Files.exists(place)) {
+            return false;
+        }
+        try {
+            return Files.isRegularFile(own) && Files.isRegularFile(place)
+                    ? Files.mismatch(own, place) >= 0
+                    : !Files.isSameFile(own, place);
+        } catch (IOException e) {
+            return true;
         }
     }
 

@@ -12,6 +12,7 @@ import org.memtrack.formats.TrackedFilm;
  *
  * @param tracked film, tracks and their motility; frames are numbered as in the image, also when only a part was tracked
  * @param frames detections, numbered likewise
+ * @param droppedTracks tracks of detections that the track filter dropped
  * @param detection what the server answered
  * @param server what the server said of itself
  * @param warnings what the user should know, one sentence each
@@ -19,6 +20,7 @@ import org.memtrack.formats.TrackedFilm;
 public record TrackingResult(
         TrackedFilm tracked,
         List<FrameDetections> frames,
+        int droppedTracks,
         DetectionResult detection,
         ServerInfo server,
         List<String> warnings) {

@@ -5,7 +5,9 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
+import org.memtrack.client.Criterion;
 import org.memtrack.client.DetectionResult;
+import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.detection.FrameDetections;
@@ -13,8 +15,9 @@ import org.memtrack.formats.TrackedFilm;
 import org.memtrack.server.ServerConnection;
 import org.memtrack.server.Servers;
 import org.memtrack.tracking.Field;
+import org.memtrack.tracking.FilteredTracks;
 import org.memtrack.tracking.SortTracker;
-import org.memtrack.tracking.Track;
+import org.memtrack.tracking.TrackFilter;
 import org.memtrack.video.Film;
 import org.memtrack.video.FilmInfo;
 
@@ -39,27 +42,34 @@ public final class TrackingRun {
             FilmInfo info = wholeFilm(film);
             Progress rest = progress.between(DETECTED, 1);
             List<FrameDetections> frames = asTracked(detection.frames(), film.firstFrame(), settings.secondLook());
-            List<Track> tracks = new SortTracker(settings.tracking(), new Field(info.width(), info.height()))
-                    .track(
+            FilteredTracks found = new SortTracker(settings.tracking(), new Field(info.width(), info.height()))
+                    .trackAndFilter(
                             frames,
                             fraction -> rest.report("Tracking", fraction, OptionalDouble.empty(), ""),
                             progress::cancelled);
-            TrackedFilm tracked = TrackedFilm.of(info, tracks, frames);
-            List<String> warnings = new ArrayList<>(detection.accepted().warnings());
-            if (tracks.isEmpty()) {
-                warnings.add(noTracks(detection, settings));
+            TrackedFilm tracked = TrackedFilm.of(info, found.tracks(), frames);
+            List<String> warnings = new ArrayList<>(detection.warnings());
+            if (found.tracks().isEmpty()) {
+                warnings.add(noTracks(detection.summary().kept(), settings));
             }
-            return new TrackingResult(tracked, frames, detection, connection.info(), warnings);
+            return new TrackingResult(tracked, frames, found.dropped(), detection, connection.info(), warnings);
         }
     }
 
-    private static String noTracks(DetectionResult detection, TrackingSettings settings) {
-        return detection.summary().kept() == 0
-                ? "Nothing was detected: lower the thresholds, choose maximum F1, or check that the model fits the film."
-                : "No track is as long as %d frames and as sure as %s: lower min_length or min_score."
-                        .formatted(
-                                settings.tracking().filter().minimumLength(),
-                                settings.tracking().filter().minimumScore());
+    /** Options are told by the name of their field in the dialog and, in brackets, by that in a macro. */
+    static String noTracks(long detections, TrackingSettings settings) {
+        if (detections > 0) {
+            TrackFilter filter = settings.tracking().filter();
+            return "No track is as long as %d frames and as sure as %s: lower Least track length (min_length) or Least track score (min_score)."
+                    .formatted(filter.minimumLength(), filter.minimumScore());
+        }
+        DetectionSettings detection = settings.detection();
+        boolean strict = detection.thresholds() == null && detection.criterion() == Criterion.MAXIMUM_PRECISION;
+        return "Nothing was detected: %s, or check that Pixel size (pixel_size), Cell length (cell_length) and Model (model) fit the film."
+                .formatted(
+                        strict
+                                ? "choose maximum F1 in Thresholds for (criterion)"
+                                : "lower the thresholds of the levels (threshold_low, threshold_medium, threshold_high)");
     }
 
     /** Numbered as in the image, and without faint boxes where no second look is wanted. */

@@ -2,14 +2,17 @@
 package org.memtrack.server;
 
 import java.io.File;
+import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import org.jspecify.annotations.Nullable;
@@ -61,10 +64,14 @@ final class Interpreters {
         return found;
     }
 
-    /** Pythons in some folders, each name once. */
+    /**
+     * Pythons in some folders, by name, those of one name in the order of the folders: the first may not work, as a shim of
+     * pyenv for a version that is not selected, or the stub of the Windows Store.
+     */
     private static List<Interpreter> in(List<Path> folders, String origin) {
+        List<Path> places = eachOnce(folders);
         return NAMES.stream()
-                .flatMap(name -> find(name, folders).stream())
+                .flatMap(name -> find(name, places))
                 .map(file -> new Interpreter(
                         file.getFileName().toString().matches("py(\\.exe)?")
                                 ? List.of(file.toString(), "-3")
@@ -84,13 +91,26 @@ final class Interpreters {
         return new Interpreter(List.of(python.toAbsolutePath().toString()), origin, true, false);
     }
 
-    private static Optional<Path> find(String name, List<Path> folders) {
+    private static Stream<Path> find(String name, List<Path> folders) {
         String file = windows() ? name + ".exe" : name;
         return folders.stream()
                 .map(folder -> folder.resolve(file))
                 .filter(Files::isExecutable)
-                .filter(Files::isRegularFile)
-                .findFirst();
+                .filter(Files::isRegularFile);
+    }
+
+    /** Without folders that lead to an earlier one: /bin is often a link to /usr/bin. */
+    private static List<Path> eachOnce(List<Path> folders) {
+        Set<Path> seen = new HashSet<>();
+        return folders.stream().filter(folder -> seen.add(target(folder))).toList();
+    }
+
+    private static Path target(Path folder) {
+        try {
+            return folder.toRealPath();
+        } catch (IOException e) {
+            return folder;
+        }
     }
 
     private static Optional<Path> absolute(String folder) {

@@ -196,7 +196,11 @@ final class LocalServer {
             return interpreter.describe() + " has no package memtrack";
         }
         String words = !lines.isEmpty()
-                ? last(lines)
+                // A shim of pyenv says what is wrong first and goes on with advice; Python says it last.
+                ? lines.stream()
+                        .filter(line -> line.startsWith("pyenv: "))
+                        .findFirst()
+                        .orElseGet(() -> last(lines))
                 : output.lines().isEmpty() ? "it said nothing" : "it said \"" + last(output.lines()) + "\"";
         String clause = words.replaceAll("[.\\s]+$", "");
         return "the server of %s %s: %s".formatted(interpreter.describe(), what, clause);

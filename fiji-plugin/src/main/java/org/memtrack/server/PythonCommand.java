@@ -42,13 +42,21 @@ public final class PythonCommand {
                 if (end.exitCode() == 0) {
                     return end.lines();
                 }
+                String code = "it ended with code " + end.exitCode();
                 String last = end.lines().isEmpty()
-                        ? "it ended with code " + end.exitCode()
+                        ? code
                         : end.lines().get(end.lines().size() - 1);
-                if (!last.contains(NOT_INSTALLED)) {
+                if (last.contains(NOT_INSTALLED)) {
+                    reasons.add(last);
+                } else if (runs(python, progress, limit)) {
                     throw new DetectorException("memtrack %s failed: %s".formatted(arguments.get(0), last));
+                } else {
+                    String first = end.lines().stream()
+                            .filter(line -> !line.isBlank())
+                            .findFirst()
+                            .orElse(code);
+                    reasons.add("%s cannot be run: %s".formatted(python.describe(), first));
                 }
-                reasons.add(last);
             } catch (IOException e) {
                 reasons.add("%s cannot be run: %s".formatted(python.describe(), e.getMessage()));
             } catch (TimeoutException e) {
@@ -62,5 +70,13 @@ public final class PythonCommand {
         throw new DetectorException(
                 ("No Python has MEMTrack (%s): run Plugins > Tracking > MEMTrack > MEMTrack Install Python Environment.")
                         .formatted(reasons.isEmpty() ? "No Python was found" : reasons.get(0)));
+    }
+
+    /** Whether it is a Python at all; a shim of pyenv or the stub of the Windows Store may only say why it is none. */
+    private static boolean runs(Interpreter python, Progress progress, Duration limit)
+            throws IOException, TimeoutException {
+        return WatchedProcess.run(python.process("-c", "pass"), progress, line -> {}, limit)
+                        .exitCode()
+                == 0;
     }
 }

@@ -35,32 +35,38 @@ public final class SortTracker {
         this.field = field;
     }
 
-    /** Tracks of a film; as {@link #track(List, DoubleConsumer, BooleanSupplier)}, not to be stopped. */
+    /** Tracks of a film; as {@link #trackAndFilter}, not to be stopped. */
     public List<Track> track(List<FrameDetections> frames) {
-        return track(frames, fraction -> {}, () -> false);
+        return trackAndFilter(frames, fraction -> {}, () -> false).tracks();
     }
 
     /**
-     * Tracks of a film.
+     * Tracks of a film, and how many the filter dropped.
      *
      * @param frames in ascending order of frame; a frame that is left out counts as one without detections. Detections are
      *     joined by where they stand in the scene, freed of its drift
      * @param progress told the share of the work that is done, in [0, 1]
      * @param cancelled asked once a frame
-     * @return tracks in order of their first frame, numbered from 0
      * @throws CancellationException when {@code cancelled} said so
      * @throws IllegalArgumentException when the frames are not in ascending order
      */
-    public List<Track> track(List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
+    public FilteredTracks trackAndFilter(
+            List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
         SceneView scene = new SceneView(new StageDrift(frames));
         boolean again = settings.interpolation() == Interpolation.FILL_GAPS
                 && frames.stream().anyMatch(frame -> !frame.faint().isEmpty());
         double share = again ? 0.5 : 1;
         List<List<TrackPoint>> kept = new ArrayList<>();
+        int dropped = 0;
         for (Tracklet tracklet : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
             List<TrackPoint> points = scene.inFilm(pointsOf(tracklet));
-            if (!points.isEmpty() && settings.filter().keeps(points, field)) {
+            if (points.isEmpty()) {
+                continue;
+            }
+            if (settings.filter().keeps(points, field)) {
                 kept.add(points);
+            } else {
+                dropped++;
             }
         }
         if (again) {
@@ -78,7 +84,7 @@ public final class SortTracker {
         for (List<TrackPoint> points : kept) {
             tracks.add(new Track(tracks.size(), points));
         }
-        return tracks;
+        return new FilteredTracks(tracks, dropped);
     }
 
     /**

@@ -63,8 +63,8 @@ final class DetectorPanel extends ConfigurationPanel {
         form.row(
                 "Thresholds for",
                 thresholds,
-                "Which score thresholds to use: of the model's stored ones those that gave the best precision or the best"
-                        + " F1 on its validation films, or the three below.");
+                "Which score thresholds to use: maximum precision, at least 0.98 on the model's validation films; maximum"
+                        + " F1, the lowest thresholds whose F1 there is within 0.003 of the best; or the three below.");
         form.row("  low motility", low, "Least score of a spot found by the level for slow motion, 0 to 1.");
         form.row("  medium motility", medium, "Least score of a spot found by the level for medium motion, 0 to 1.");
         form.row("  high motility", high, "Least score of a spot found by the level for fast motion, 0 to 1.");
@@ -73,17 +73,17 @@ final class DetectorPanel extends ConfigurationPanel {
                 "Cell length (px)",
                 cellLength,
                 "Length of a cell as it looks in this film, in pixels; by it the film is brought to the model's scale. 0: by"
-                        + " the film's pixel size.");
+                        + " the film's pixel size, cells being taken to be 2 um long; without one the film is used as it is.");
         form.row(
                 "Greatest size (px)",
                 maximumSize,
-                "Wider or taller boxes are dropped, in pixels at the model's scale. 0: the model's own, 35 in the paper.");
+                "Wider or taller boxes are dropped, in pixels at the model's scale. 0: 35, as in the paper.");
         form.row(
                 "Greatest overlap (IoU)",
                 nmsIou,
-                "Of two boxes whose intersection over union exceeds this, the weaker is dropped, 0 to 1. 0: the model's"
-                        + " own, 0.7 in the paper.");
-        form.sentence("0 leaves a value to the film or to the model.");
+                "Of two boxes whose intersection over union exceeds this, the weaker is dropped, 0 to 1. 0: 0.7, as in"
+                        + " the paper.");
+        form.sentence("0 leaves a value to the film or to its default.");
         stabilise.setToolTipText(Form.wrapped(
                 "Measure and undo the drift of the stage before the background is taken; spots are reported in the"
                         + " film as you see it.",

@@ -95,7 +95,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
     private void tell(DetectionResult result) {
         ModelInUse model = result.accepted();
         logger.log("Model %s %s on %s.%n".formatted(model.name(), model.version(), model.engine()));
-        model.warnings().forEach(warning -> logger.log("Note: %s%n".formatted(warning)));
+        result.warnings().forEach(warning -> logger.log("Note: %s%n".formatted(warning)));
         logger.log("%s.%n".formatted(result.summary().describe(model.thresholds())));
         if (result.summary().kept() == 0) {
             logger.log(

@@ -69,7 +69,8 @@ final class MemtrackTracker extends StoppableModule implements SpotTracker {
         SpotFilm film = SpotFilm.of(spots, image);
         // The length filter is applied here, so that the user learns how much it drops.
         List<Track> all = new SortTracker(sort.with(TrackFilter.ofLength(1)))
-                .track(film.frames(), logger::setProgress, this::isCanceled);
+                .trackAndFilter(film.frames(), logger::setProgress, this::isCanceled)
+                .tracks();
         Field field = image == null ? null : new Field(image.getWidth(), image.getHeight());
         List<Track> kept = new ArrayList<>(all);
         kept.removeIf(track -> !sort.filter().keeps(track.points(), field));

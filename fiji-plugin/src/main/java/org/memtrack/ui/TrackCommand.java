@@ -9,6 +9,7 @@ import ij.plugin.PlugIn;
 import ij.plugin.frame.Recorder;
 import java.awt.GraphicsEnvironment;
 import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -54,21 +55,21 @@ public final class TrackCommand implements PlugIn {
 
     private static void track(ImagePlus image, TrackRequest request, Progress progress) {
         ImageFilm film = new ImageFilm(image, request.film());
-        ResultFiles files = ResultFiles.in(request.output(), image.getTitle());
-        TrackingSettings settings = request.settingsFor(film.info().frameCount());
+        ResultFiles files = ResultFiles.in(request.output(), film);
+        int frameCount = film.info().frameCount();
+        TrackingSettings settings = request.settingsFor(frameCount);
         settings =
                 settings.with(settings.detection().withRegion(Regions.of(image).orElse(null)));
+        Map<String, Object> inForce = new LinkedHashMap<>(request.optionsFor(frameCount));
+        Map<String, Object> region = Regions.describe(image);
+        if (!region.isEmpty()) {
+            inForce.put("region", region);
+        }
         TrackingResult result = TrackingRun.run(film, settings, progress);
         List<String> warnings = new ArrayList<>(film.warnings());
-        if (!settings.tracking().equals(request.settings().tracking())) {
-            warnings.add(
-                    "The film is short: tracks of %d frames are kept, not only those of %d; min_length sets another length."
-                            .formatted(
-                                    settings.tracking().filter().minimumLength(),
-                                    request.settings().tracking().filter().minimumLength()));
-        }
+        warnings.addAll(request.warningsFor(frameCount));
         warnings.addAll(result.warnings());
-        files.write(result, film, Origin.of(film, result, request.options(), warnings));
+        files.write(result, film, Origin.of(film, result, inForce, warnings));
         if (request.overlay() && !GraphicsEnvironment.isHeadless()) {
             TrackOverlay.show(image, film, result.tracked().tracks()).ifPresent(TrackCommand::note);
         }

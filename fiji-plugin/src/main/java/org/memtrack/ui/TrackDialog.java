@@ -110,9 +110,9 @@ final class TrackDialog {
         }
         List<TrackOption> shown = new ArrayList<>();
         if (!common) {
-            dialog.addMessage("An empty field leaves the choice to the model or the medium.");
-        } else if (values.get(TrackOption.PIXEL_SIZE).isEmpty()) {
-            dialog.addMessage("The film does not say its pixel size: give it, or the length of a cell.");
+            dialog.addMessage("Help says what an empty field stands for.");
+        } else {
+            dialog.addMessage(Commands.wrapped(aboutScale(values)));
         }
         for (TrackOption option : TrackOption.values()) {
             if (option.common() == common) {
@@ -130,6 +130,13 @@ final class TrackDialog {
             return Optional.empty();
         }
         return Optional.of(read(dialog, shown, values) && common);
+    }
+
+    /** By what the film is brought to the model's scale. */
+    static String aboutScale(Map<TrackOption, String> values) {
+        return values.get(TrackOption.PIXEL_SIZE).isEmpty()
+                ? "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length of a cell. With neither the film is used as it is."
+                : "Cells are taken to be 2 um long, unless you give the length of one.";
     }
 
     private static String help(List<TrackOption> shown) {

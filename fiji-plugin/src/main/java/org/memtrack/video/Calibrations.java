@@ -18,6 +18,9 @@ import java.util.OptionalDouble;
  */
 record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameIntervalSeconds, List<String> warnings) {
 
+    private static final String PIXEL_SIZE = "Pixel size (pixel_size)";
+    private static final String FRAME_INTERVAL = "Frame interval (frame_interval)";
+
     /** What the user said, and where they said nothing, what the image says. */
     static Calibrations of(ImagePlus image, FilmOptions options) {
         Calibration calibration = image.getCalibration();
@@ -43,19 +46,20 @@ record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameInt
                 warnings.add(String.format(
                         Locale.ROOT,
                         "The frame interval, %.4g s, is taken from the film's playback rate; if it was recorded at"
-                                + " another rate, set frame_interval.",
-                        interval.getAsDouble()));
+                                + " another rate, give %s.",
+                        interval.getAsDouble(),
+                        FRAME_INTERVAL));
             }
         }
         if (pixelSize.isEmpty() || interval.isEmpty()) {
-            warnings.add("The film has no %s: speeds are reported in pixels per frame; set %s to have them in um/s."
+            warnings.add("The film has no %s: speeds are reported in pixels per frame; give %s to have them in um/s."
                     .formatted(
                             pixelSize.isPresent()
                                     ? "frame interval"
                                     : interval.isPresent() ? "pixel size" : "pixel size and no frame interval",
                             pixelSize.isPresent()
-                                    ? "frame_interval"
-                                    : interval.isPresent() ? "pixel_size" : "pixel_size and frame_interval"));
+                                    ? FRAME_INTERVAL
+                                    : interval.isPresent() ? PIXEL_SIZE : PIXEL_SIZE + " and " + FRAME_INTERVAL));
         }
         return new Calibrations(pixelSize, interval, warnings);
     }

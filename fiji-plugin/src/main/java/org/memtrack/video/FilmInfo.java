@@ -9,7 +9,7 @@ import java.util.OptionalDouble;
  * What is known of a film besides its pixels.
  *
  * @param title name the user sees
- * @param file where the film was opened from, absolute; empty when it was never saved
+ * @param file that holds the film, absolute; empty when none does
  * @param width columns of a frame, pixels
  * @param height rows of a frame, pixels
  * @param frameCount frames of the film

@@ -6,7 +6,9 @@ import ij.ImageStack;
 import ij.process.ImageProcessor;
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
+import java.nio.file.Path;
 import java.util.List;
+import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.stream.Stream;
 import org.memtrack.detection.DetectorException;
@@ -17,6 +19,7 @@ public final class ImageFilm implements Film {
     private final ImageStack stack;
     private final FilmOptions options;
     private final FilmInfo info;
+    private final Optional<Path> openedFrom;
     private final SampleType sampleType;
     private final List<String> warnings;
 
@@ -44,6 +47,7 @@ public final class ImageFilm implements Film {
         }
         Calibrations calibrations = Calibrations.of(image, options);
         FilmFile file = FilmFile.of(image);
+        this.openedFrom = file.openedFrom();
         this.warnings = Stream.of(file.warnings(), calibrations.warnings())
                 .flatMap(List::stream)
                 .toList();
@@ -80,6 +84,11 @@ public final class ImageFilm implements Film {
     @Override
     public FilmInfo info() {
         return info;
+    }
+
+    @Override
+    public Optional<Path> openedFrom() {
+        return openedFrom;
     }
 
     @Override
@@ -157,8 +166,8 @@ public final class ImageFilm implements Film {
     private static void checkAxes(ImagePlus image, FrameAxis axis) {
         if (axis == FrameAxis.T && framesLieOnZ(image)) {
             throw new DetectorException(
-                    ("\"%s\" has %d slices in Z and a single frame: if the slices are its frames, say"
-                                    + " frames=z, or swap Z and T in Image > Properties.")
+                    ("\"%s\" has %d slices in Z and a single frame: if the slices are its frames, choose z"
+                                    + " for Frames lie on (in a macro: frames=z), or swap Z and T in Image > Properties.")
                             .formatted(image.getTitle(), image.getNSlices()));
         }
         if (image.getNSlices() > 1 && image.getNFrames() > 1) {
@@ -167,8 +176,9 @@ public final class ImageFilm implements Film {
                     .formatted(image.getTitle(), image.getNSlices(), image.getNFrames()));
         }
         if (axis == FrameAxis.Z && image.getNFrames() > 1) {
-            throw new DetectorException("\"%s\" has its %d frames on T: leave frames=z out."
-                    .formatted(image.getTitle(), image.getNFrames()));
+            throw new DetectorException(
+                    "\"%s\" has its %d frames on T: choose t for Frames lie on (in a macro: leave frames=z out)."
+                            .formatted(image.getTitle(), image.getNFrames()));
         }
     }
 }

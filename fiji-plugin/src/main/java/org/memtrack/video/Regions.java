@@ -3,14 +3,22 @@ package org.memtrack.video;
 
 import ij.ImagePlus;
 import ij.gui.Roi;
+import ij.io.RoiEncoder;
 import java.awt.Point;
+import java.awt.Rectangle;
+import java.util.Base64;
 import java.util.BitSet;
+import java.util.LinkedHashMap;
 import java.util.Locale;
+import java.util.Map;
 import java.util.Optional;
 import org.memtrack.detection.DetectorException;
 
 /** The region the user has selected in an image. */
 public final class Regions {
+    /** Bytes of a selection that are noted; one that was made from a mask may have far more. */
+    private static final int MOST_BYTES = 1 << 16;
+
     private Regions() {}
 
     /**
@@ -46,5 +54,29 @@ public final class Regions {
                             + " Select None, or draw a region.");
         }
         return Optional.of(new RegionMask(width, height, inside));
+    }
+
+    /**
+     * The selection of an image as ImageJ can rebuild it; empty when nothing is selected.
+     *
+     * @return kind, x, y, width and height of the bounds in pixels, and roi: ImageJ's .roi file in Base64, left out where it
+     *     is large
+     */
+    public static Map<String, Object> describe(ImagePlus image) {
+        Map<String, Object> values = new LinkedHashMap<>();
+        Roi roi = image.getRoi();
+        if (roi != null) {
+            Rectangle bounds = roi.getBounds();
+            values.put("kind", roi.getTypeAsString());
+            values.put("x", bounds.x);
+            values.put("y", bounds.y);
+            values.put("width", bounds.width);
+            values.put("height", bounds.height);
+            byte[] file = RoiEncoder.saveAsByteArray(roi);
+            if (file.length <= MOST_BYTES) {
+                values.put("roi", Base64.getEncoder().encodeToString(file));
+            }
+        }
+        return values;
     }
 }

@@ -50,10 +50,11 @@ class DetectionClientTest {
                             1.5,
                             "some engine",
                             List.of("A warning.")));
+            assertThat(result.warnings()).containsExactly("A warning.", "2 of 3 frames are dark.");
             assertThat(result.summary().nearMisses()).isEqualTo(20);
             assertThat(result.summary().describe(result.accepted().thresholds()))
                     .isEqualTo("72 detections above 0.50 (low), 0.60 (medium), 0.70 (high);"
-                            + " 20 between 0.20 and the threshold");
+                            + " 20 weaker boxes, down to 0.20 and several on each cell, are not among them");
         }
     }
 

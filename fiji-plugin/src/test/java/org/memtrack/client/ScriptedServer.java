@@ -173,7 +173,8 @@ final class ScriptedServer extends DetectionServiceGrpc.DetectionServiceImplBase
                         .setOutsideRegion(4)
                         .setKept(72)
                         .setCandidateFloor(0.2)
-                        .setFilmSha256("def"))
+                        .setFilmSha256("def")
+                        .addWarnings("2 of 3 frames are dark."))
                 .build();
     }
 }

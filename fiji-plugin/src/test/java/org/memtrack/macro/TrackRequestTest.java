@@ -6,11 +6,13 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import java.nio.file.Path;
 import java.util.HashSet;
+import java.util.Map;
 import java.util.OptionalDouble;
 import java.util.Set;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.client.Criterion;
 import org.memtrack.client.Thresholds;
 import org.memtrack.detection.DetectorException;
@@ -59,6 +61,11 @@ class TrackRequestTest {
     }
 
     @Test
+    void noOverlapAtAllMayBeAskedFor() {
+        assertThat(of("output=out nms_iou=0").settings().detection().nmsIou()).isZero();
+    }
+
+    @Test
     void pathsMayStandInQuotes() {
         TrackRequest request = of("output=[\"/my films/out\"] python=\"/p/python\"");
         assertThat(request.output()).isEqualTo(Path.of("/my films/out").toAbsolutePath());
@@ -73,6 +80,20 @@ class TrackRequestTest {
                         .settings()
                         .secondLook())
                 .isFalse();
+        assertThat(of("output=out interpolation=authors").settings().secondLook())
+                .isFalse();
+    }
+
+    @Test
+    void whereTheSecondLookIsOffByItselfTheUserIsToldWhy() {
+        String thresholds = "output=out threshold_low=0.5 threshold_medium=0.5 threshold_high=0.5";
+        assertThat(of(thresholds).warningsFor(120))
+                .containsExactly("Look again for faint cells (second_look) is off, as thresholds are given.");
+        assertThat(of("output=out interpolation=authors").warningsFor(120))
+                .containsExactly(
+                        "Look again for faint cells (second_look) is off, as Interpolation (interpolation) is authors.");
+        assertThat(of(thresholds + " second_look=false").warningsFor(120)).isEmpty();
+        assertThat(of("output=out").warningsFor(120)).isEmpty();
     }
 
     @Test
@@ -93,6 +114,33 @@ class TrackRequestTest {
                         .filter()
                         .minimumLength())
                 .isEqualTo(60);
+    }
+
+    @Test
+    void thatTheFilmIsShortIsTold() {
+        assertThat(of("output=out").warningsFor(119))
+                .containsExactly(
+                        "The film is short: tracks of 59 frames are kept, not only those of 60; Least track length (min_length) sets another length.");
+        assertThat(of("output=out min_length=60").warningsFor(119)).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "output=out",
+                "output=out preset=water min_length=12",
+                "output=out min_length_sure=7 second_look=false",
+                "output=out threshold_low=0.5 threshold_medium=0.5 threshold_high=0.5"
+            })
+    void theOptionsInForceSayAllOfTheSettingsForAFilmOfAnyLength(String line) {
+        for (int frames : new int[] {1, 50, 120, 1000}) {
+            TrackRequest request = of(line);
+            Map<String, String> inForce = request.optionsFor(frames);
+            assertThat(inForce).containsKeys("min_length", "min_length_sure", "second_look");
+            TrackRequest again = of(OptionLine.format(inForce));
+            assertThat(again.settingsFor(frames)).isEqualTo(request.settingsFor(frames));
+            assertThat(again.warningsFor(frames)).isEmpty();
+        }
     }
 
     @Test
@@ -124,7 +172,7 @@ class TrackRequestTest {
                     output=o preset=agar          | collagen or water
                     output=o stabilise=maybe      | true or false
                     output=o max_age=2.5          | a whole number
-                    output=o pixel_size=0,25      | a number, with a point and not a comma
+                    output=o pixel_size=0,25      | Pixel size (pixel_size) cannot be "0,25": give a number, with a point and not a comma
                     output=o pixel_size=-1        | pixel size must be a positive number
                     output=o pixel_size=NaN       | pixel size must be a positive number
                     output=o iou_gate=1           | IoU gate
@@ -132,7 +180,8 @@ class TrackRequestTest {
                     output=o min_length_sure=0    | length of sure tracks
                     output=o min_score=1.5        | track score must lie in 0 to 1, not 1.5
                     output=o nms_iou=2            | overlap
-                    output=o threshold_low=0.5    | Only some thresholds
+                    output=o nms_iou=NaN          | overlap
+                    output=o threshold_low=0.5    | give all three, Threshold, low level (threshold_low),
                     output=o threshold_low=2 threshold_medium=1 threshold_high=1 | low level must lie in 0 to 1, not 2.0
                     output=o channel=0            | counted from 1
                     output=o first_frame=9 last_frame=3 | 9 to 3
@@ -164,6 +213,13 @@ class TrackRequestTest {
         for (TrackOption option : TrackOption.values()) {
             assertThat(keys.add(option.key())).isTrue();
             assertThat(option.help()).isNotBlank();
+            for (TrackOption other : TrackOption.values()) {
+                // What the dialog does not show is named as it does show it, too.
+                String rest = option.help().replace(other.bothNames(), "");
+                assertThat(rest.contains(other.key()) && other.key().contains("_"))
+                        .as("%s in the help of %s", other.key(), option.key())
+                        .isFalse();
+            }
             assertThat(option.kind() == TrackOption.Kind.CHOICE)
                     .isEqualTo(!option.choices().isEmpty());
         }

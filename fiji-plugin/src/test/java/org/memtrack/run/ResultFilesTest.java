@@ -4,6 +4,11 @@ package org.memtrack.run;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
+import ij.IJ;
+import ij.ImagePlus;
+import ij.io.FileSaver;
+import ij.plugin.FolderOpener;
+import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
@@ -18,6 +23,8 @@ import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.Film;
 import org.memtrack.video.FilmInfo;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.ImageFilm;
 import org.memtrack.video.SampleType;
 
 class ResultFilesTest {
@@ -26,10 +33,13 @@ class ResultFilesTest {
     @TempDir
     Path folder;
 
+    @TempDir
+    Path disk;
+
     @Test
     void theFolderIsMadeAndNothingIsLeftInIt() throws Exception {
         Path made = folder.resolve("ä [1]").resolve("细菌 b");
-        ResultFiles files = ResultFiles.in(made, "my film.tif");
+        ResultFiles files = ResultFiles.in(made, opened(IJ.createImage("my film.tif", "8-bit", 60, 40, 9)));
         assertThat(files.xml()).isEqualTo(made.resolve("my film.xml"));
         assertThat(files.all()).hasSize(6).doesNotHaveDuplicates();
         assertThat(made).isEmptyDirectory();
@@ -38,7 +48,7 @@ class ResultFilesTest {
     @Test
     void filesOfTheUserAreNotOverwritten() throws Exception {
         Files.writeString(folder.resolve("film.mdf"), "tracked by hand for a week");
-        assertThatThrownBy(() -> ResultFiles.in(folder, "film.tif"))
+        assertThatThrownBy(() -> ResultFiles.in(folder, SmallRun.film()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("film.mdf");
     }
@@ -47,28 +57,86 @@ class ResultFilesTest {
     @ValueSource(strings = {"no JSON", "{}", "{\"a\": 1}", "{\"files\": {\"film.mdf\": \"0\"}}"})
     void aFileThatIsNamedAsOurProvenanceMakesNothingOurs(String json) throws Exception {
         Files.writeString(folder.resolve("film.json"), json);
-        assertThatThrownBy(() -> ResultFiles.in(folder, "film.tif"))
+        assertThatThrownBy(() -> ResultFiles.in(folder, SmallRun.film()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("film.json");
     }
 
     @Test
     void resultsOfAnEarlierRunAreReplaced() throws Exception {
-        ResultFiles files = ResultFiles.in(folder, "film.tif");
+        ResultFiles files = ResultFiles.in(folder, SmallRun.film());
         write(files);
         Files.delete(files.picture());
-        write(ResultFiles.in(folder, "film.tif"), TRACK);
+        write(ResultFiles.in(folder, SmallRun.film()), TRACK);
         assertThat(Files.readString(files.csv())).hasLineCount(2);
         assertThat(folder).isDirectoryContaining(file -> file.equals(files.picture()));
         assertThat(folder.toFile().list()).hasSize(6);
     }
 
     @Test
+    void resultsOfAnotherFilmOfThatNameAreNotReplaced() throws Exception {
+        Film one = saved("pos1", 1);
+        Film other = saved("pos2", 2);
+        write(ResultFiles.in(folder, one), one, TRACK);
+        assertThatThrownBy(() -> ResultFiles.in(folder, other))
+                .isInstanceOf(DetectorException.class)
+                .hasMessage("%s holds the results of another film of this name, %s: give another output folder."
+                        .formatted(folder, one.openedFrom().orElseThrow()));
+        write(ResultFiles.in(folder, saved("pos1", 3)), one);
+    }
+
+    @Test
+    void norAreThoseThatAnotherRunWritesMeanwhile() throws Exception {
+        Film one = saved("pos1", 1);
+        Film other = saved("pos2", 2);
+        ResultFiles files = ResultFiles.in(folder, one);
+        ResultFiles sameFiles = ResultFiles.in(folder, other);
+        write(files, one, TRACK);
+        assertThatThrownBy(() -> write(sameFiles, other)).hasMessageContaining("another film");
+        assertThat(Files.readString(files.csv())).hasLineCount(2);
+    }
+
+    @Test
+    void aFilmThatWasMovedOrCopiedIsTheSame() throws Exception {
+        Film film = saved("before", 1);
+        write(ResultFiles.in(folder, film), film);
+        Film copy = saved("copy", 1);
+        write(ResultFiles.in(folder, copy), copy);
+        Files.delete(copy.openedFrom().orElseThrow());
+        ResultFiles.in(folder, saved("after", 2));
+    }
+
+    @Test
+    void picturesOfAnotherFolderAndACroppedFilmAreOtherFilms() throws Exception {
+        Film one = pictures("pos1");
+        Film other = pictures("pos2");
+        write(ResultFiles.in(folder, one), one, TRACK);
+        write(ResultFiles.in(folder, one), one, TRACK);
+        assertThatThrownBy(() -> ResultFiles.in(folder, other))
+                .hasMessageContaining(one.openedFrom().orElseThrow().toString());
+
+        Film cropped = cropped(saved("pos3", 1));
+        write(ResultFiles.in(folder, cropped), cropped);
+        Film croppedLikewise = cropped(saved("pos4", 2));
+        assertThatThrownBy(() -> ResultFiles.in(folder, croppedLikewise)).hasMessageContaining("pos3");
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"\"C:\\u0000\"", "7", "null", "\"\""})
+    void aFilmThatCannotBeLookedForIsNoReasonToRefuse(String file) throws Exception {
+        Files.writeString(
+                folder.resolve("film.json"),
+                "{\"software\": {\"MEMTrack plug-in\": \"0.1.0\"}, \"film\": {\"file\": %s}, \"files\": {\"a\": \"0\"}}"
+                        .formatted(file));
+        ResultFiles.in(folder, saved("pos1", 1));
+    }
+
+    @Test
     void tracksThatTheUserHasCorrectedAreNotOverwritten() throws Exception {
-        ResultFiles files = ResultFiles.in(folder, "film.tif");
+        ResultFiles files = ResultFiles.in(folder, SmallRun.film());
         write(files, TRACK);
         Files.writeString(files.xml(), "corrected by hand");
-        assertThatThrownBy(() -> ResultFiles.in(folder, "film.tif"))
+        assertThatThrownBy(() -> ResultFiles.in(folder, SmallRun.film()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("film.xml")
                 .hasMessageContaining("changed since");
@@ -76,8 +144,8 @@ class ResultFilesTest {
 
     @Test
     void norAreThoseThatTheUserCorrectsWhileARunWorks() throws Exception {
-        write(ResultFiles.in(folder, "film.tif"));
-        ResultFiles again = ResultFiles.in(folder, "film.tif");
+        write(ResultFiles.in(folder, SmallRun.film()));
+        ResultFiles again = ResultFiles.in(folder, SmallRun.film());
         Files.writeString(again.mdf(), "corrected by hand");
         assertThatThrownBy(() -> write(again, TRACK)).hasMessageContaining("film.mdf");
         assertThat(again.mdf()).hasContent("corrected by hand");
@@ -86,20 +154,20 @@ class ResultFilesTest {
 
     @Test
     void aRunThatCannotBeWrittenLeavesTheEarlierOneAndTheNextRunWorks() throws Exception {
-        ResultFiles files = ResultFiles.in(folder, "film.tif");
+        ResultFiles files = ResultFiles.in(folder, SmallRun.film());
         write(files);
         String csv = Files.readString(files.csv());
 
-        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, "film.tif"), TRACK))
+        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, SmallRun.film()), TRACK))
                 .isInstanceOf(DetectorException.class);
         assertThat(files.csv()).hasContent(csv);
         assertThat(folder.toFile().list()).hasSize(6);
-        write(ResultFiles.in(folder, "film.tif"), TRACK);
+        write(ResultFiles.in(folder, SmallRun.film()), TRACK);
     }
 
     @Test
     void aFirstRunThatCannotBeWrittenLeavesNothing() throws Exception {
-        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, "film.tif"), TRACK))
+        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, SmallRun.film()), TRACK))
                 .isInstanceOf(DetectorException.class);
         assertThat(folder).isEmptyDirectory();
     }
@@ -107,7 +175,7 @@ class ResultFilesTest {
     @Test
     void aFolderThatIsGoneIsTold() throws Exception {
         Path made = folder.resolve("made");
-        ResultFiles files = ResultFiles.in(made, "film.tif");
+        ResultFiles files = ResultFiles.in(made, SmallRun.film());
         Files.delete(made);
         assertThatThrownBy(() -> write(files))
                 .isInstanceOf(DetectorException.class)
@@ -117,7 +185,7 @@ class ResultFilesTest {
     @Test
     void aFolderThatIsAFileIsRefused() throws Exception {
         Path file = Files.writeString(folder.resolve("file"), "x");
-        assertThatThrownBy(() -> ResultFiles.in(file, "film.tif"))
+        assertThatThrownBy(() -> ResultFiles.in(file, SmallRun.film()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining(file.toString())
                 .hasMessageContaining("choose another one");
@@ -135,6 +203,37 @@ class ResultFilesTest {
     })
     void namesAreThoseOfTheFilmWithoutWhatFileSystemsRefuse(String title, String expected) {
         assertThat(ResultFiles.baseName(title)).isEqualTo(expected);
+    }
+
+    /** Opened from film.tif in a folder beside that of the results; another value is other content. */
+    private Film saved(String name, int value) throws IOException {
+        Path file = Files.createDirectories(disk.resolve(name)).resolve("film.tif");
+        ImagePlus image = IJ.createImage("film", "8-bit ramp", 60, 40, 9);
+        image.getStack().getProcessor(5).set(7, 7, value);
+        new FileSaver(image).saveAsTiffStack(file.toString());
+        return opened(IJ.openImage(file.toString()));
+    }
+
+    private Film pictures(String name) throws IOException {
+        Path pictures = Files.createDirectories(disk.resolve(name).resolve("frames"));
+        for (int i = 0; i < 9; i++) {
+            ImagePlus frame = IJ.createImage("frame", "8-bit ramp", 60, 40, 1);
+            new FileSaver(frame).saveAsPng(pictures.resolve(i + ".png").toString());
+        }
+        return opened(FolderOpener.open(pictures.toString()));
+    }
+
+    private static Film cropped(Film film) {
+        ImagePlus image = ((ImageFilm) film).image();
+        image.setRoi(2, 2, 40, 30);
+        image.setStack(image.crop("stack").getStack());
+        image.deleteRoi();
+        return opened(image);
+    }
+
+    private static Film opened(ImagePlus image) {
+        image.setDimensions(1, 1, image.getStackSize());
+        return new ImageFilm(image, FilmOptions.DEFAULTS);
     }
 
     private static void write(ResultFiles files, Track... tracks) {

@@ -31,9 +31,10 @@ final class SmallRun {
         return new TrackingResult(
                 TrackedFilm.of(film.info(), List.of(tracks), List.of()),
                 List.of(),
+                3,
                 new DetectionResult(
                         List.of(),
-                        new DetectionSummary(9, 8, 1, 2, 1, 0, 4, 0.1, "f".repeat(64), Map.of()),
+                        new DetectionSummary(9, 8, 1, 2, 1, 0, 4, 0.1, "f".repeat(64), Map.of(), List.of()),
                         new ModelInUse(
                                 "default", "5", "m".repeat(64), new Thresholds(0.5, 0.6, 0.7), 1, "none", List.of())),
                 new ServerInfo(1, "0.1.0", "3.11.2", Map.of(), List.of(), 0, 0),

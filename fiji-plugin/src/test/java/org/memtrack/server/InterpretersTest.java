@@ -3,15 +3,21 @@ package org.memtrack.server;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.junit.jupiter.api.Assumptions.abort;
 
 import java.io.File;
+import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.condition.DisabledOnOs;
+import org.junit.jupiter.api.condition.OS;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
 class InterpretersTest {
@@ -66,22 +72,22 @@ class InterpretersTest {
         Path root = folder.resolve("root");
         String framework = "root/Library/Frameworks/Python.framework/Versions/";
         Path old = program(framework + "3.9/bin", "python3.9");
-        program(framework + "3.9/bin", "python3");
+        Path older = program(framework + "3.9/bin", "python3");
         Path twelve = program(framework + "3.12/bin", "python3.12");
         Path newest = program(framework + "3.12/bin", "python3");
         Path homebrew = program("root/opt/homebrew/bin", "python3.13");
         Map<String, String> finder = Map.of("PATH", onPath.getParent().toString());
         assertThat(commands(Interpreters.onThisMachine(finder, UsualFolders.of("Mac OS X", root, finder))))
-                .containsExactly(onPath, newest, homebrew, twelve)
+                .containsExactly(onPath, newest, older, homebrew, twelve)
                 .doesNotContain(old);
 
         Path windows = program("local/Programs/Python/Python313", "python");
-        program("local/Programs/Python/Python39", "python");
+        Path windowsOlder = program("local/Programs/Python/Python39", "python");
         program("local/Programs/Python/Python314-32", "python");
         Map<String, String> startMenu =
                 Map.of("LOCALAPPDATA", folder.resolve("local").toString());
         assertThat(commands(Interpreters.onThisMachine(startMenu, UsualFolders.of("Windows 11", root, startMenu))))
-                .containsExactly(windows);
+                .containsExactly(windows, windowsOlder);
         assertThat(UsualFolders.of("Linux", root, startMenu)).isEmpty();
     }
 
@@ -89,6 +95,34 @@ class InterpretersTest {
     void aPythonOnThePathIsNotFoundASecondTime() {
         assertThat(Interpreters.onThisMachine(environment, List.of(onPath.getParent())))
                 .hasSize(1);
+    }
+
+    @Test
+    void aFolderThatIsALinkToOneOnThePathIsNotSearched() throws Exception {
+        Path link = folder.resolve("bin");
+        try {
+            Files.createSymbolicLink(link, onPath.getParent());
+        } catch (IOException e) {
+            abort("Links need a right on Windows: " + e.getMessage());
+        }
+        Map<String, String> both = Map.of("PATH", onPath.getParent() + File.pathSeparator + link);
+        assertThat(commands(Interpreters.onThisMachine(both, List.of()))).containsExactly(onPath);
+    }
+
+    /** As a shim of pyenv for a version that is not selected, or the stub of the Windows Store. */
+    @Test
+    @DisabledOnOs(value = OS.WINDOWS, disabledReason = "the shim is a shell script")
+    void aShimThatEndsInAnErrorDoesNotHideAPythonOfItsName() throws Exception {
+        Interpreter real = Interpreters.onThisMachine(System.getenv()).get(0);
+        Path python = Path.of(real.command().get(0));
+        Path shim = program("shims", python.getFileName().toString());
+        Files.writeString(shim, "#!/bin/sh\necho 'pyenv: command not found' >&2\nexit 127\n");
+        Map<String, String> pyenv = Map.of("PATH", shim.getParent() + File.pathSeparator + python.getParent());
+        List<Interpreter> found = Interpreters.onThisMachine(pyenv, List.of());
+        assertThat(commands(found)).startsWith(shim, python);
+        List<String> objections = new ArrayList<>();
+        assertThat(BasePython.choose(found, objections, Progress.NONE)).contains(real);
+        assertThat(objections).containsExactly(shim + " (on the path) is no Python");
     }
 
     @Test

@@ -33,6 +33,18 @@ class LocalServerTest {
     }
 
     @Test
+    void aShimOfPyenvIsReportedWithWhatItSaysFirst() throws Exception {
+        Interpreter shim = script("""
+                import sys
+                sys.exit("pyenv: python3.12: command not found\\n\\nThe `python3.12' command exists in these Python versions:"
+                         "\\n  3.12.1\\n\\nNote: See 'pyenv help global' for tips on allowing multiple\\n      Python versions.")
+                """);
+        assertThatThrownBy(() -> LocalServer.start(shim, Progress.NONE))
+                .isInstanceOf(StartException.class)
+                .hasMessageEndingWith("ended: pyenv: python3.12: command not found");
+    }
+
+    @Test
     void aProgramThatSaysSomethingElseIsNoServer() throws Exception {
         Interpreter other = script("print('Hello', flush=True)");
         assertThatThrownBy(() -> LocalServer.start(other, Progress.NONE))

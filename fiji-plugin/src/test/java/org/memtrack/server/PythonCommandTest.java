@@ -42,6 +42,33 @@ class PythonCommandTest {
                 .hasMessageContaining("gone (installed by MEMTrack) cannot be run");
     }
 
+    /** As a shim of pyenv for a version that is not selected, or the stub of the Windows Store. */
+    @Test
+    void aProgramThatRunsNoPythonIsPassedOver() throws Exception {
+        Interpreter shim =
+                script("import sys; print('pyenv: command not found\\n\\nNote: see its help'); sys.exit(127)");
+        Interpreter python = script("print('done')");
+        assertThat(PythonCommand.run(List.of("evaluate"), Progress.NONE, List.of(shim, python), Duration.ofMinutes(1)))
+                .containsExactly("done");
+        assertThatThrownBy(() ->
+                        PythonCommand.run(List.of("evaluate"), Progress.NONE, List.of(shim), Duration.ofMinutes(1)))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("No Python has MEMTrack")
+                .hasMessageContaining("(on the path) cannot be run: pyenv: command not found)");
+    }
+
+    @Test
+    void aCommandThatFailsIsNotTriedWithAnotherPython() throws Exception {
+        Path other = folder.resolve("other");
+        List<Interpreter> pythons = List.of(
+                script("import sys; sys.exit('-m' in sys.argv and 'there is no film')"),
+                script("open(r'%s', 'w').close()".formatted(other)));
+        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofMinutes(1)))
+                .isInstanceOf(DetectorException.class)
+                .hasMessage("memtrack evaluate failed: there is no film");
+        assertThat(other).doesNotExist();
+    }
+
     private Interpreter script(String code) throws Exception {
         Path file = Files.writeString(Files.createTempFile(folder, "memtrack", ".py"), code);
         String python =

@@ -102,6 +102,15 @@ class SortTrackerTest {
     }
 
     @Test
+    void whatTheFilterDropsIsCounted() {
+        SortSettings least = SortSettings.DEFAULTS.with(TrackFilter.ofLength(4));
+        FilteredTracks found = new SortTracker(least)
+                .trackAndFilter(swimmerSeenIn(0, 1, 2, 100, 101, 200, 201, 203), f -> {}, () -> false);
+        assertThat(found.tracks()).hasSize(1);
+        assertThat(found.dropped()).isEqualTo(2);
+    }
+
+    @Test
     void tracksOfFewerThanMinimumHitsAreDropped() {
         SortSettings hits =
                 new SortSettings(Association.MOTION, 0.05, 25, 3, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
@@ -164,7 +173,7 @@ class SortTrackerTest {
         List<Double> fractions = new ArrayList<>();
 
         assertThatThrownBy(() -> new SortTracker(SortSettings.DEFAULTS)
-                        .track(swimmerSeenIn(0, 1, 2, 3), fractions::add, () -> fractions.size() == 2))
+                        .trackAndFilter(swimmerSeenIn(0, 1, 2, 3), fractions::add, () -> fractions.size() == 2))
                 .isInstanceOf(CancellationException.class);
         assertThat(fractions).containsExactly(0.125, 0.25);
     }

@@ -35,6 +35,15 @@ class TrackDialogTest {
     }
 
     @Test
+    void theUserIsToldWhatThePixelSizeMeans() {
+        assertThat(TrackDialog.aboutScale(Map.of(TrackOption.PIXEL_SIZE, "0.25")))
+                .contains("2 um long")
+                .doesNotContain("pixel size");
+        assertThat(TrackDialog.aboutScale(Map.of(TrackOption.PIXEL_SIZE, "")))
+                .contains("does not say its pixel size", "2 um long", "used as it is");
+    }
+
+    @Test
     void slicesThatAreNoFramesAreNoFilm() {
         ImagePlus stack = IJ.createImage("stack", "8-bit", 8, 8, 9);
         assertThat(TrackDialog.axis(stack, true)).isEqualTo("z");

@@ -8,12 +8,15 @@ import ij.ImagePlus;
 import ij.ImageStack;
 import ij.io.FileInfo;
 import ij.io.FileSaver;
+import ij.plugin.FolderOpener;
 import java.io.File;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 class FilmFileTest {
     @TempDir
@@ -65,12 +68,30 @@ class FilmFileTest {
     void aFilmThatWasNeverSavedHasNoneAndNothingIsSaid() {
         FilmFile none = FilmFile.of(IJ.createImage("new", "8-bit", 4, 3, 5));
         assertThat(none.path()).isEmpty();
+        assertThat(none.openedFrom()).isEmpty();
         assertThat(none.warnings()).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"", "virtual"})
+    void aFolderOfPicturesIsNoFileAndTheUserIsToldToSaveIt(String how) throws Exception {
+        Path pictures = Files.createDirectory(folder.resolve("frames"));
+        for (int i = 0; i < 3; i++) {
+            new FileSaver(IJ.createImage("frame", "8-bit ramp", 40, 30, 1))
+                    .saveAsPng(pictures.resolve(i + ".png").toString());
+        }
+        FilmFile none = FilmFile.of(FolderOpener.open(pictures.toString(), how));
+        assertThat(none.path()).isEmpty();
+        assertThat(none.openedFrom()).hasValue(pictures);
+        assertThat(none.warnings())
+                .containsExactly(
+                        "\"frames\" was opened from single pictures, so the .xml names no film: save it as a TIFF first, and TrackMate finds it.");
     }
 
     private void assertThatItHasNoFile() {
         ImageFilm film = new ImageFilm(image, FilmOptions.DEFAULTS);
         assertThat(film.info().file()).isEmpty();
+        assertThat(film.openedFrom()).hasValue(file);
         assertThat(film.warnings()).anySatisfy(warning -> assertThat(warning).contains(file.toString(), "save it"));
     }
 }

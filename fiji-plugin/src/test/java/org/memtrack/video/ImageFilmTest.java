@@ -153,7 +153,7 @@ class ImageFilmTest {
         assertThat(playedAt30("film.tif").warnings())
                 .singleElement()
                 .asString()
-                .contains("set pixel_size and frame_interval");
+                .contains("give Pixel size (pixel_size) and Frame interval (frame_interval)");
     }
 
     private static ImageFilm playedAt30(String fileName) {

@@ -8,7 +8,12 @@ import ij.IJ;
 import ij.ImagePlus;
 import ij.gui.Line;
 import ij.gui.OvalRoi;
+import ij.gui.PolygonRoi;
 import ij.gui.Roi;
+import ij.gui.ShapeRoi;
+import ij.io.RoiDecoder;
+import java.util.Base64;
+import java.util.Map;
 import org.junit.jupiter.api.Test;
 import org.memtrack.detection.DetectorException;
 
@@ -36,6 +41,37 @@ class RegionsTest {
         RegionMask mask = Regions.of(image).orElseThrow();
         assertThat(mask.contains(5, 5)).isTrue();
         assertThat(mask.contains(0, 0)).isFalse();
+    }
+
+    @Test
+    void aSelectionIsDescribedSoThatImageJCanRebuildIt() {
+        assertThat(Regions.describe(image)).isEmpty();
+        image.setRoi(new PolygonRoi(new float[] {2, 12, 7.5f}, new float[] {1, 3, 9}, Roi.POLYGON));
+        Map<String, Object> region = Regions.describe(image);
+        assertThat(region)
+                .containsEntry("kind", "Polygon")
+                .containsEntry("x", 2)
+                .containsEntry("y", 1)
+                .containsEntry("width", 10)
+                .containsEntry("height", 8);
+
+        RegionMask mask = Regions.of(image).orElseThrow();
+        image.setRoi(RoiDecoder.openFromByteArray(
+                Base64.getDecoder().decode(region.get("roi").toString())));
+        assertThat(Regions.of(image)).hasValue(mask);
+    }
+
+    @Test
+    void ofASelectionWithVeryManyPartsOnlyTheBoundsAreTold() {
+        ShapeRoi squares = new ShapeRoi(new Roi(0, 0, 1, 1));
+        for (int i = 1; i < 4000; i++) {
+            squares.or(new ShapeRoi(new Roi(2 * (i % 100), 2 * (i / 100), 1, 1)));
+        }
+        image.setRoi(squares);
+        assertThat(Regions.describe(image))
+                .containsEntry("kind", "Composite")
+                .containsEntry("width", 199)
+                .doesNotContainKey("roi");
     }
 
     @Test

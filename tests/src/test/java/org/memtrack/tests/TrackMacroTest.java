@@ -95,8 +95,7 @@ class TrackMacroTest {
 
         assertThat(outcome.aborted()).isFalse();
         assertThat(outcome.log())
-                .containsPattern(
-                        "0 tracks from 0 detections above 1.00; [1-9][0-9]* between 0\\.[0-9]{2} and the threshold")
+                .containsPattern("0 tracks from 0 detections above 1.00; [1-9][0-9]* weaker boxes")
                 .contains("lower the thresholds")
                 .contains("pixel size and no frame interval");
         new RunFiles(output, "swimmers").checkThatAllAgree();
