@@ -18,7 +18,7 @@ SUBCOMMANDS = {
     "simulate": "make films of bacteria with known tracks",
     "train": "train a model on annotated or simulated films",
     "evaluate": "compare detections or tracks with a ground truth",
-    "models": "list the models, or add one",
+    "models": "list the models, or check one",
 }
 
 

@@ -26,7 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Describe the options of `memtrack evaluate`."""
     parser.add_argument("--truth", type=Path, help="the truth: CSV, .mdf of MTrackJ, .xml of TrackMate, or MOT .txt")
     parser.add_argument("--tracks", type=Path, help="the tracks to judge, in any of these formats")
-    parser.add_argument("--detections", type=Path, help="the detector's candidates, as `memtrack detect` writes them")
+    parser.add_argument(
+        "--detections",
+        type=Path,
+        help="boxes, as `memtrack detect` writes them; for curves with --thresholds 0,0,0 --nms-iou 1",
+    )
     parser.add_argument("--video", type=Path, help="the film itself, which --baselines work on")
     parser.add_argument(
         "--films",

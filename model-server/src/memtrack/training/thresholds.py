@@ -129,9 +129,10 @@ def choose(scored: Scored) -> dict[str, tuple[float, ...]]:
     """Thresholds of the levels for each criterion.
 
     Each level's scores are turned into the probability of being right that they had on these films, and one bound on
-    that probability holds for all levels: so none is asked for more than another. max_f1: where F1 over all levels is
-    highest. max_precision: precision alone is highest where almost nothing is found, so it is the lowest bound above
-    that of max_f1 with precision 0.97, or with the best precision among those that keep three quarters of its recall.
+    that probability holds for all levels: so none is asked for more than another. max_f1: the lowest bound whose F1
+    over all levels is within `EVEN_F1` of the highest. max_precision: precision alone is highest where almost nothing
+    is found, so it is the lowest bound above the one of the best F1 with a precision of `SURE_PRECISION`, or with the
+    best precision among those that keep three quarters of its recall.
     """
     fits = {level: _level_fit(scored, level) for level in Level}
     slopes, offsets = (np.array([fits[level][k] for level in Level]) for k in range(2))
