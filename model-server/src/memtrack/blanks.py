@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from jaxtyping import Bool, Float32, Int, Shaped
 
-from memtrack.film import Calibration, Film
+from memtrack.film import Film, FilmOver
 
 Frame = Shaped[np.ndarray, "h w"]
 
@@ -28,35 +28,14 @@ SMOOTH_PX = 8.0
 
 
 @dataclass(frozen=True, slots=True)
-class FilledFilm:
+class FilledFilm(FilmOver):
     """`film` with the pixels at (`rows`, `columns`) replaced by `values`, brightened and dimmed with the rest of each
     frame, whose usual mean is `level`."""
 
-    film: Film
     rows: Int[np.ndarray, " n"]
     columns: Int[np.ndarray, " n"]
     values: Float32[np.ndarray, " n"]
     level: float
-
-    @property
-    def frame_count(self) -> int:
-        """Frames of the film."""
-        return self.film.frame_count
-
-    @property
-    def height(self) -> int:
-        """Height in pixels."""
-        return self.film.height
-
-    @property
-    def width(self) -> int:
-        """Width in pixels."""
-        return self.film.width
-
-    @property
-    def calibration(self) -> Calibration:
-        """The film's."""
-        return self.film.calibration
 
     def frame(self, index: int) -> Frame:
         """Frame `index`, a copy."""

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from jaxtyping import Bool, Int, Shaped
 
-from memtrack.film import Calibration, Film
+from memtrack.film import Film, FilmOver
 
 Frame = Shaped[np.ndarray, "h w"]
 
@@ -29,32 +29,11 @@ MOST = 0.005
 
 
 @dataclass(frozen=True, slots=True)
-class RepairedFilm:
+class RepairedFilm(FilmOver):
     """`film` with the pixels at (`rows`, `columns`) replaced by the median of those around them."""
 
-    film: Film
     rows: Int[np.ndarray, " n"]
     columns: Int[np.ndarray, " n"]
-
-    @property
-    def frame_count(self) -> int:
-        """Frames of the film."""
-        return self.film.frame_count
-
-    @property
-    def height(self) -> int:
-        """Height in pixels."""
-        return self.film.height
-
-    @property
-    def width(self) -> int:
-        """Width in pixels."""
-        return self.film.width
-
-    @property
-    def calibration(self) -> Calibration:
-        """The film's."""
-        return self.film.calibration
 
     def frame(self, index: int) -> Frame:
         """Frame `index`, a copy."""

@@ -64,3 +64,26 @@ class ArrayFilm:
     def frame(self, index: int) -> Shaped[np.ndarray, "height width"]:
         frame: np.ndarray = self.frames[index]
         return frame
+
+
+@dataclass(frozen=True, slots=True)
+class FilmOver:
+    """Base of films that show the frames of `film` changed: of its size and scale, unless they say otherwise."""
+
+    film: Film
+
+    @property
+    def frame_count(self) -> int:
+        return self.film.frame_count
+
+    @property
+    def height(self) -> int:
+        return self.film.height
+
+    @property
+    def width(self) -> int:
+        return self.film.width
+
+    @property
+    def calibration(self) -> Calibration:
+        return self.film.calibration

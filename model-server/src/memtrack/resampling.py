@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Shaped
 
-from memtrack.film import Calibration, Film
+from memtrack.film import Calibration, Film, FilmOver
 
 HALF_WIDTH = 3
 
@@ -33,16 +33,10 @@ def read_shifted(image: Float32[np.ndarray, "h w"], dx: float, dy: float) -> Flo
 
 
 @dataclass(frozen=True, slots=True)
-class ScaledFilm:
+class ScaledFilm(FilmOver):
     """`film` with each frame resized by `factor`, to whole pixels: see `factors_of` for where a pixel lands."""
 
-    film: Film
     factor: float
-
-    @property
-    def frame_count(self) -> int:
-        """Frames of the film."""
-        return self.film.frame_count
 
     @property
     def height(self) -> int:
