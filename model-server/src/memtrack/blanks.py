@@ -18,12 +18,15 @@ from memtrack.film import Film, FilmOver
 Frame = Shaped[np.ndarray, "h w"]
 
 SAMPLES = 24
-FLAT = 0.02
-"""Share of the film's range of grey levels within which a blank part stays: the black of a video is not quite black."""
-STEP = 0.15
-"""Share of that range that the step around a blank part exceeds."""
+FLAT = 0.03
+"""A blank part stays this near to the darkest or brightest value, as a share of the scene's distance from it: the black
+of a video is not quite black."""
+STEP = 0.3
+"""Share of that distance that most of its surroundings always keep."""
 LEAST, MOST = 0.003, 0.6
 """Shares of the frame: a smaller part is left alone, and where more is blank it is the kind of image."""
+LEAST_PX = 500
+"""A smaller part, in pixels, may be a grain of a medium so dark that the camera cuts it off."""
 SMOOTH_PX = 8.0
 
 
@@ -74,23 +77,32 @@ def _blank(
     lowest: Float32[np.ndarray, "h w"], highest: Float32[np.ndarray, "h w"], mean: Float32[np.ndarray, "h w"]
 ) -> Bool[np.ndarray, "h w"]:
     """Parts at the border that stay at one end of the film's range and end at a step; with one pixel around them."""
+    dark, bright = (float(np.quantile(mean, share)) for share in (0.25, 0.75))
     bottom, top = float(lowest.min()), float(highest.max())
-    flat, step = FLAT * (top - bottom), STEP * (top - bottom)
-    blank = np.zeros(mean.shape, bool)
-    if not np.isfinite(step) or step <= 0:
+    return _at_end(lowest - bottom, highest - bottom, bright - bottom) | _at_end(
+        top - highest, top - lowest, top - dark
+    )
+
+
+def _at_end(
+    nearest: Float32[np.ndarray, "h w"], furthest: Float32[np.ndarray, "h w"], scene: float
+) -> Bool[np.ndarray, "h w"]:
+    """Blank parts at one end, from which each pixel stands at least and at most so far, and the scene in general."""
+    blank = np.zeros(nearest.shape, bool)
+    if not 0 < scene < np.inf:
         return blank
-    for end, stays in ((bottom, highest <= bottom + flat), (top, lowest >= top - flat)):
-        count, labels, statistics, _ = cv2.connectedComponentsWithStats(stays.astype(np.uint8))
-        for number in range(1, count):
-            x, y, w, h, area = statistics[number]
-            at_border = x == 0 or y == 0 or x + w == mean.shape[1] or y + h == mean.shape[0]
-            if area < LEAST * mean.size or not at_border:
-                continue
-            part = (labels == number).astype(np.uint8)
-            inner, outer = (cv2.dilate(part, np.ones((edge, edge), np.uint8)) > 0 for edge in (5, 9))
-            rim = outer & ~inner
-            if rim.any() and abs(float(np.quantile(np.abs(mean[rim] - end), 0.25))) > step:
-                blank |= cv2.dilate(part, np.ones((3, 3), np.uint8)) > 0
+    stays: np.ndarray = furthest <= FLAT * scene
+    count, labels, statistics, _ = cv2.connectedComponentsWithStats(stays.astype(np.uint8))
+    for number in range(1, count):
+        x, y, w, h, area = statistics[number]
+        at_border = x == 0 or y == 0 or x + w == nearest.shape[1] or y + h == nearest.shape[0]
+        if area < max(LEAST * nearest.size, LEAST_PX) or not at_border:
+            continue
+        part = (labels == number).astype(np.uint8)
+        inner, outer = (cv2.dilate(part, np.ones((edge, edge), np.uint8)) > 0 for edge in (3, 7))
+        rim = nearest[outer & ~inner]
+        if len(rim) and np.quantile(rim, 0.25) > STEP * scene:
+            blank |= cv2.dilate(part, np.ones((3, 3), np.uint8)) > 0
     return blank
 
 

@@ -168,7 +168,7 @@ class DetectorInTrackMateTest {
                 "THRESHOLDS", "GIVEN", "THRESHOLD_LOW", 1.0, "THRESHOLD_MEDIUM", 1.0, "THRESHOLD_HIGH", 1.0));
         assertThat(trackmate.execDetection()).as(trackmate.getErrorMessage()).isTrue();
         assertThat(spots(trackmate.getModel())).isEmpty();
-        assertThat(recorder.text).containsPattern("0 detections above 1.00; \\d{2,} between").contains("lower the thresholds");
+        assertThat(recorder.text).containsPattern("0 detections above 1.00; \\d{2,} weaker boxes").contains("lower the thresholds");
     }
 
     @Test
