@@ -80,8 +80,9 @@ def test_deeper_images_are_filled_in_their_own_type(dtype: type) -> None:
         np.where(np.hypot(X - 80, Y - 60) < 20, 0, film()).astype(np.uint8),  # inside the field: an object
         np.where(np.hypot(X - 80, Y - 60) > 30, 0, film()).astype(np.uint8),  # most of the frame
         np.full((3, *SHAPE), np.nan, np.float32),
+        np.full((3, *SHAPE), np.inf, np.float32),
     ],
-    ids=["grain", "dark field", "even", "corner", "object", "most", "nan"],
+    ids=["grain", "dark field", "even", "corner", "object", "most", "nan", "infinity"],
 )
 def test_what_is_not_blank_is_left_alone(frames: np.ndarray) -> None:
     whole = ArrayFilm(frames)

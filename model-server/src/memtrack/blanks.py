@@ -77,8 +77,10 @@ def _blank(
     lowest: Float32[np.ndarray, "h w"], highest: Float32[np.ndarray, "h w"], mean: Float32[np.ndarray, "h w"]
 ) -> Bool[np.ndarray, "h w"]:
     """Parts at the border that stay at one end of the film's range and end at a step; with one pixel around them."""
-    dark, bright = (float(np.quantile(mean, share)) for share in (0.25, 0.75))
     bottom, top = float(lowest.min()), float(highest.max())
+    if not np.isfinite(top - bottom):
+        return np.zeros(mean.shape, bool)
+    dark, bright = (float(np.quantile(mean, share)) for share in (0.25, 0.75))
     return _at_end(lowest - bottom, highest - bottom, bright - bottom) | _at_end(
         top - highest, top - lowest, top - dark
     )
@@ -89,7 +91,7 @@ def _at_end(
 ) -> Bool[np.ndarray, "h w"]:
     """Blank parts at one end, from which each pixel stands at least and at most so far, and the scene in general."""
     blank = np.zeros(nearest.shape, bool)
-    if not 0 < scene < np.inf:
+    if not scene > 0:
         return blank
     stays: np.ndarray = furthest <= FLAT * scene
     count, labels, statistics, _ = cv2.connectedComponentsWithStats(stays.astype(np.uint8))
