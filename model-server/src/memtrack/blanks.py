@@ -62,10 +62,10 @@ def without_blanks(film: Film) -> Film:
         np.minimum(lowest, frame, out=lowest)
         np.maximum(highest, frame, out=highest)
         total += frame
-    blank = _blank(lowest, highest, total / len(chosen))
+    mean = total / np.float32(len(chosen))
+    blank = _blank(lowest, highest, mean)
     if not LEAST <= blank.mean() <= MOST:
         return film
-    mean = total / np.float32(len(chosen))
     level = float(mean[~blank].mean())
     if not level > 0:
         return film
