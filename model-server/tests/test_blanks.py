@@ -47,6 +47,17 @@ def test_a_blank_part_is_filled_with_its_surroundings(where: np.ndarray, value: 
     np.testing.assert_array_equal(mended[~marked], frames[3][~marked])
 
 
+def test_what_is_lit_keeps_its_distance() -> None:
+    frames = film()
+    frames[:, BARS] = 0
+    found = without_blanks(ArrayFilm(frames))
+    assert isinstance(found, FilledFilm)
+    lit = found.lit(6.0)
+    assert not lit[:, :26].any()
+    assert lit[:, 28:142].all()
+    assert not lit[:, 144:].any()
+
+
 def test_the_filling_dims_with_the_lamp() -> None:
     frames = film(lamp=0.3)
     frames[:, BARS] = 0

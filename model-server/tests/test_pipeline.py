@@ -223,6 +223,22 @@ def test_a_long_film_is_answered_in_order_while_its_backgrounds_are_made(model: 
     assert [stage for stage, _, _ in calls] == sorted(stage for stage, _, _ in calls)
 
 
+def test_the_edge_of_a_blank_part_is_no_cell_where_the_scene_drifts_past_it(model: Model) -> None:
+    drifting = simulate(replace(GEL, drift_per_frame=(0.15, 0.1)), 3)
+    frames = drifting.film.frames.copy()
+    y, x = np.mgrid[: GEL.height, : GEL.width]
+    from_edge = 108 - np.hypot(x - GEL.width / 2, y - GEL.height / 2)
+    frames[:, from_edge < 0] = 0
+    wanted = from_edge > 0
+    wanted[:, :100] = False  # what the user selected still counts
+    found = run(ArrayFilm(frames), model, region=wanted, thresholds=(0.1, 0.1, 0.1))
+    boxes = np.concatenate([frame.detections.boxes for frame in found])
+    columns, rows = (np.rint((boxes[:, k] + boxes[:, k + 2]) / 2).astype(int) for k in range(2))
+    assert len(boxes) > 100
+    assert from_edge[rows, columns].min() > 4
+    assert columns.min() >= 99
+
+
 def test_frames_without_light_are_told(gel: SimulatedFilm, model: Model) -> None:
     dark = gel.film.frames.copy()
     dark[3:5] //= 20

@@ -51,6 +51,12 @@ class FilledFilm(FilmOver):
         filled[self.rows, self.columns] = values
         return filled
 
+    def lit(self, margin_px: float) -> Bool[np.ndarray, "h w"]:
+        """Where the film shows something, and no blank part is nearer than `margin_px`."""
+        seen = np.ones((self.height, self.width), np.uint8)
+        seen[self.rows, self.columns] = 0
+        return np.asarray(cv2.distanceTransform(seen, cv2.DIST_L2, 5) >= margin_px)
+
 
 def without_blanks(film: Film) -> Film:
     """`film`, filled where parts of it are blank; the same object where none are."""

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
-from memtrack.blanks import without_blanks
+from memtrack.blanks import FilledFilm, without_blanks
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
 from memtrack.detector import detect
@@ -30,6 +30,9 @@ from memtrack.stabilisation import measure_motion
 
 CELL_LENGTH_UM = 2.0
 """Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
+BLANK_MARGIN_PX = 6.0
+"""Where the scene drifts, the edge of a blank part seems to move, and passes for cells so near to it at most, at the
+model's scale."""
 SCALES = (0.05, 8.0)
 """Least and greatest factor frames are scaled by: what is more is a mistake, and would not fit into memory."""
 
@@ -114,6 +117,9 @@ def detect_film(
     threads = settings.threads
     stabilising = _at(report, Stage.STABILISING)
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
+    if isinstance(film, FilledFilm):
+        margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
+        limits["region"] = _lit(film, settings.region, margin / scale)
     done, count = 0, film.frame_count
     if motion.unlit:
         warn(
@@ -137,6 +143,12 @@ def detect_film(
             kept, counts = prune(candidates, **limits)
             drift_x, drift_y = motion.drift[i] / factors
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
+
+
+def _lit(film: FilledFilm, wanted: Bool[np.ndarray, "h w"] | None, margin_px: float) -> Bool[np.ndarray, "h w"]:
+    """Where detections count."""
+    lit = film.lit(margin_px)
+    return lit if wanted is None else lit & wanted
 
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
