@@ -10,6 +10,8 @@ import cv2
 import numpy as np
 from jaxtyping import Shaped, UInt8
 
+from memtrack.errors import FilmError
+
 Frames = Shaped[np.ndarray, "frame h w"]
 
 
@@ -28,12 +30,18 @@ def without_background(frames: Frames, sign: int, rng: np.random.Generator) -> F
 
 
 def through_video(frames: UInt8[np.ndarray, "frame h w"]) -> UInt8[np.ndarray, "frame h w"]:
-    """`frames` as they come back from an MPEG-4 file, which keeps little of what is faint and none of the noise."""
+    """`frames` as they come back from an MPEG-4 file, which keeps little of what is faint and none of the noise.
+
+    Raises:
+        FilmError: OpenCV was built without the encoder.
+    """
     _, h, w = frames.shape
     even = np.pad(frames, ((0, 0), (0, h % 2), (0, w % 2)), mode="edge")
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "film.avi")
         writer = cv2.VideoWriter(path, cv2.VideoWriter.fourcc(*"XVID"), 25, (even.shape[2], even.shape[1]))
+        if not writer.isOpened():
+            raise FilmError("this OpenCV cannot write MPEG-4 videos: install opencv-python-headless from its wheel")
         for frame in even:
             writer.write(cv2.cvtColor(frame, cv2.COLOR_GRAY2BGR))
         writer.release()
