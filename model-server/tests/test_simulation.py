@@ -80,6 +80,21 @@ def test_a_stuck_cell_is_no_truth_to_find_and_a_bright_swimmer_is_while_its_cent
     assert swimming.ignored[~outside].mean() < 0.3
 
 
+def test_a_tethered_cell_never_leaves_its_place_and_is_there_to_find_even_as_it_passes_its_median() -> None:
+    recipe = replace(QUIET, read_noise=8.0, frames=60, gaits=(Gait.TETHERED,) * 12, looks=(LOOK,) * 12)
+    truth = simulate(recipe, 3).truth
+    moves = []
+    for track in truth.tracks():
+        away = np.hypot(track.x - np.median(track.x), track.y - np.median(track.y)) * recipe.pixel_size_um
+        moves.append(float(away.max()))
+        if _well_in(track.x.min(), track.y.min()) and _well_in(track.x.max(), track.y.max()):
+            assert len(set(track.ignored)) == 1  # of the whole film, not now and then
+    assert min(moves) > 0
+    assert max(moves) < 3
+    assert not truth.ignored.all()
+    assert simulate(replace(recipe, read_noise=200.0), 3).truth.ignored.all()
+
+
 def test_what_is_too_faint_to_find_does_not_depend_on_the_stage() -> None:
     recipe = replace(QUIET, read_noise=8.0, gaits=(Gait.TRAPPED,) * 12, looks=(LOOK,) * 12)
     still, shaking = simulate(recipe, 5).truth, simulate(replace(recipe, jitter=0.4), 5).truth
@@ -145,6 +160,7 @@ def test_each_gait_moves_as_its_name_says() -> None:
         for gait in Gait
     }
     assert spread[Gait.STUCK] == 0
+    assert spread[Gait.STUCK] < spread[Gait.TETHERED] < spread[Gait.SWIMMING]
     assert spread[Gait.STUCK] < spread[Gait.BROWNIAN] < spread[Gait.HOPPING] < spread[Gait.SWIMMING]
     assert spread[Gait.SWIMMING] > 1
 
@@ -209,6 +225,8 @@ def drawn(family: str) -> list[Recipe]:
 def test_families_that_are_hard_in_one_respect_are_so() -> None:
     slow = [gait for recipe in drawn("slow") for gait in recipe.gaits]
     assert np.mean([gait in (Gait.BROWNIAN, Gait.TRAPPED) for gait in slow]) > 0.7
+    tethered = [gait for recipe in drawn("tethered") for gait in recipe.gaits]
+    assert 0.3 < np.mean([gait is Gait.TETHERED for gait in tethered]) < 0.7
     for recipe in drawn("faint"):
         noise = np.hypot(recipe.read_noise, recipe.shot_noise * np.sqrt(recipe.level / 255))
         assert np.median([abs(look.contrast) for look in recipe.looks] or [0]) <= 5 * noise + 1e-6

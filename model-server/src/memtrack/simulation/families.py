@@ -108,6 +108,7 @@ FAMILIES: dict[str, Callable[[Recipe, np.random.Generator], Recipe]] = {
     "foam": _held_out("foam"),
     "granular": _held_out("granular"),
     "slow": _varied(variations.slow, 0.85),
+    "tethered": _varied(variations.tethered, 0.7),
     "faint": _varied(variations.faint, 0.3),
     "specks": _varied(variations.specks, 0.75),
     "brief": _varied(variations.brief, 0.4),

@@ -17,6 +17,7 @@ class Gait(enum.StrEnum):
     HOPPING = "hopping"  # rests in a pore of the gel, then darts to the next
     TRAPPED = "trapped"  # jiggles and turns around one place
     BROWNIAN = "brownian"
+    TETHERED = "tethered"  # held at one point of the glass or the gel, around which it wiggles or spins
     STUCK = "stuck"  # part of the scene
 
 
@@ -73,6 +74,9 @@ def swim(gait: Gait, world: World, rng: np.random.Generator) -> Path:
         diffusivity = 10 ** rng.uniform(-1.2, -0.1)
         xy = start + np.cumsum(rng.normal(0, np.sqrt(2 * diffusivity * dt), (n, 2)), axis=0) / world.pixel_size_um
         heading = rng.uniform(0, 2 * np.pi) + np.cumsum(rng.normal(0, np.sqrt(0.5 * dt), n))
+    elif gait is Gait.TETHERED:
+        moves, heading = _around_its_tether(world, rng)
+        xy = start + moves
     else:
         xy, heading = np.tile(start, (n, 1)), np.full(n, rng.uniform(0, 2 * np.pi))
     return Path(gait, xy, heading, _depth(gait, world, rng))
@@ -121,6 +125,21 @@ def _hops(world: World, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarra
     return steps, heading
 
 
+def _around_its_tether(world: World, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Centre and heading of a body held at one point: most wiggle by tenths of a micrometre, some spin as their motor
+    turns (Silverman & Simon 1974)."""
+    n, dt = world.frames, world.frame_interval_seconds
+    memory = float(np.exp(rng.uniform(np.log(0.02), np.log(0.5))))
+    heading = np.full(n, rng.uniform(0, 2 * np.pi))
+    if rng.random() < 0.2:
+        heading += 2 * np.pi * rng.choice([-1, 1]) * rng.uniform(0.5, 8) * dt * np.arange(n)
+    else:
+        heading += _confined(n, dt, rng.uniform(0.02, 0.4), memory, rng)[:, 0]
+    arm, reach = rng.uniform(0, 0.8), float(np.exp(rng.uniform(np.log(0.03), np.log(0.25))))
+    centre = arm * np.stack([np.cos(heading), np.sin(heading)], axis=1) + _confined(n, dt, reach, memory, rng)
+    return centre / world.pixel_size_um, heading
+
+
 def _confined(n: int, dt: float, reach: float, memory: float, rng: np.random.Generator) -> Float64[np.ndarray, "n 2"]:
     """An Ornstein-Uhlenbeck walk of standard deviation `reach` and correlation time `memory` (seconds)."""
     keep = np.exp(-dt / memory)
@@ -135,7 +154,7 @@ def _confined(n: int, dt: float, reach: float, memory: float, rng: np.random.Gen
 
 def _depth(gait: Gait, world: World, rng: np.random.Generator) -> Float64[np.ndarray, " n"]:
     n, dt = world.frames, world.frame_interval_seconds
-    if gait is Gait.STUCK:
+    if gait in (Gait.STUCK, Gait.TETHERED):
         return np.full(n, rng.normal(0, 0.6 * world.depth_spread))
     slow = {Gait.SWIMMING: 0.8, Gait.HOPPING: 1.5}.get(gait, 5.0)
     return _confined(n, dt, world.depth_spread, slow * rng.uniform(0.5, 2.0), rng)[:, 0]

@@ -53,7 +53,10 @@ def truth_of(
         seen = path.xy + drift
         near = ((seen > -0.5 - RIM_PX) & (seen < edge + RIM_PX)).all(axis=1)
         inside = ((seen > -0.5) & (seen < edge)).all(axis=1)
-        known = inside & (ratios[number] >= VISIBLE) & (path.gait is not Gait.STUCK)
+        ratio = ratios[number]
+        if path.gait is Gait.TETHERED:  # it passes through its own median, and is there all the same
+            ratio = np.full_like(ratio, np.sqrt(np.square(ratio).mean()))
+        known = inside & (ratio >= VISIBLE) & (path.gait is not Gait.STUCK)
         diffusivity = peak_diffusivity(path.xy * recipe.pixel_size_um, recipe.frame_interval_seconds)
         motility = int(motility_of(diffusivity))
         for i in np.flatnonzero(near):

@@ -19,6 +19,13 @@ def slow(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     return replace(recipe, gaits=tuple(gaits[k] for k in chosen))
 
 
+def tethered(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """Half of the bacteria are held at one point, where they wiggle or spin, among others that are stuck or swim."""
+    gaits = [Gait.TETHERED, Gait.SWIMMING, Gait.STUCK, Gait.TRAPPED, Gait.BROWNIAN]
+    chosen = rng.choice(len(gaits), len(recipe.gaits), p=[0.5, 0.3, 0.1, 0.05, 0.05])
+    return replace(recipe, gaits=tuple(gaits[k] for k in chosen))
+
+
 def faint(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     """Bacteria, and what looks like them, whose contrast is 1.2 to 5 times the camera's noise."""
     contrasts = [abs(look.contrast) for look in recipe.looks]
