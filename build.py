@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds MEMTrack and runs it from a clone; needs Java 17 or newer, Maven and Python 3.11 or newer, nothing else.
+"""Builds MEMTrack and runs it from a clone; needs a JDK 17 or newer, Maven, Python 3.11 or newer, and internet.
+
+On Windows write `py` for `python3`; fiji-plugin/docs/install.md says how to come by these, and how much is fetched.
 
     python3 build.py track [FILM] [--output FOLDER] [--options "KEY=VALUE ..."]
     python3 build.py test
@@ -150,7 +152,9 @@ def install_server(extras: str) -> None:
 def maven(*goals: str) -> None:
     """Runs Maven over all modules; the build finds the Python of the virtual environment in MEMTRACK_PYTHON."""
     step("Maven: " + " ".join(goals))
-    program = shutil.which("mvn") or sys.exit("Maven (mvn) is not on the PATH; install it from your package manager.")
+    program = shutil.which("mvn") or sys.exit(
+        "Maven (mvn) is not on the PATH; fiji-plugin/docs/install.md says what to do."
+    )
     run(program, "--batch-mode", "--no-transfer-progress", *goals, environment={"MEMTRACK_PYTHON": str(PYTHON)})
 
 
