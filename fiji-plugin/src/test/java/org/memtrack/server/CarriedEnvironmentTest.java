@@ -70,8 +70,7 @@ class CarriedEnvironmentTest {
         assertThatThrownBy(() -> install(NO_PYTHON, Optional.empty()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("No Python 3.11 or newer was found")
-                .hasMessageContaining("install Python 3.11 or newer (on Windows and macOS from python.org")
-                .hasMessageContaining(CarriedPython.jarName() + ", which has a Python in it, into Fiji's folder jars")
+                .hasMessageContaining(CarriedPython.advice())
                 .hasMessageNotContaining("\n");
     }
 

@@ -165,11 +165,17 @@ class CarriedPythonTest {
                 List.of("Windows 11", "aarch64"), WINDOWS,
                 List.of("Mac OS X", "aarch64"), "macosx-arm64",
                 List.of("Mac OS X", "x86_64"), "macosx-x86_64",
-                List.of("Linux", "amd64"), LINUX);
+                List.of("Linux", "amd64"), LINUX,
+                List.of("Linux", "aarch64"), "linux-arm64");
         platforms.forEach((machine, platform) -> assertThat(CarriedPython.platform(machine.get(0), machine.get(1)))
                 .isEqualTo(platform));
-        assertThat(CarriedPython.jarName())
-                .matches("cpython-3\\.\\d+\\.\\d+-[\\d.]+-(windows|macosx|linux)-(x86_64|arm64)\\.jar");
+    }
+
+    @Test
+    void theJarIsAdvisedWhereThereIsOne() {
+        assertThat(CarriedPython.advice(WINDOWS))
+                .containsPattern("the jar cpython-3\\.\\d+\\.\\d+-[\\d.]+-" + WINDOWS + "\\.jar");
+        assertThat(CarriedPython.advice("linux-arm64")).contains("Python 3.11 or newer").doesNotContain("jar");
     }
 
     private void make(String platform, Progress progress) throws IOException {

@@ -119,8 +119,7 @@ class LocalServerTest {
     @Test
     void withoutAnyPythonItIsToldWhatToDoFirst() {
         assertThat(ManagedServer.noPython(Optional.empty()))
-                .startsWith("No Python was found: install Python 3.11 or newer")
-                .contains(CarriedPython.jarName())
+                .startsWith("No Python was found: " + CarriedPython.advice())
                 .endsWith("MEMTrack Install Python Environment.");
         assumeTrue(
                 CarriedPython.find().isPresent(), "The jar with a Python that the tests fetch is for Linux on x86_64.");
