@@ -102,7 +102,7 @@ def detect_film(
         EngineUnavailableError: the model's computing library is not installed.
     """
     _check(film, settings)
-    film = without_blanks(without_defects(film))
+    film = mended(film)
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
@@ -143,6 +143,14 @@ def detect_film(
             kept, counts = prune(candidates, **limits)
             drift_x, drift_y = motion.drift[i] / factors
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
+
+
+def mended(film: Film) -> Film:
+    """`film` as every later step sees it, in training too: defective pixels replaced and blank parts filled.
+
+    The same object where there are none. Reads up to 24 frames twice.
+    """
+    return without_blanks(without_defects(film))
 
 
 def _lit(film: FilledFilm, wanted: Bool[np.ndarray, "h w"] | None, margin_px: float) -> Bool[np.ndarray, "h w"]:
