@@ -42,7 +42,7 @@ def gel() -> SimulatedFilm:
 
 
 def run(film: ArrayFilm | ScaledFilm, model: Model, **settings: object) -> list[FrameDetections]:
-    wanted = DetectionSettings(criterion="max_f1", **settings)  # type: ignore[arg-type]
+    wanted = DetectionSettings(**settings)  # type: ignore[arg-type]
     return list(detect_film(film, model, wanted, lambda stage, done, total: None))
 
 

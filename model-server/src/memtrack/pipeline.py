@@ -42,7 +42,7 @@ class DetectionSettings:
     """How one film is to be processed.
 
     model, version: of the registry; version None is the newest.
-    criterion: which of the model's thresholds to use, 'max_precision' (the paper's default) or 'max_f1'.
+    criterion: which of the model's thresholds to use, 'max_f1' as in the plug-in, or 'max_precision' as in the paper.
     thresholds: lowest score a level (low, medium, high), each 0 to 1; overrides the criterion.
     max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where boxes are 30.
     nms_iou: of boxes that overlap more only the best stays; 0.7 in the paper.
@@ -55,7 +55,7 @@ class DetectionSettings:
 
     model: str = "default"
     version: str | None = None
-    criterion: str = "max_precision"
+    criterion: str = "max_f1"
     thresholds: tuple[float, float, float] | None = None
     max_size_px: float = 35.0
     nms_iou: float = 0.7
