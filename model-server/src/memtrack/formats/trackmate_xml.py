@@ -79,14 +79,16 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
     spots = {}
     for spot in model.iterfind("AllSpots/SpotsInFrame/Spot"):
         if spot.get("VISIBILITY", "1") != "0":
+            interpolated = _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0
             spots[_whole(spot, "ID")] = _Spot(
                 _whole(spot, "FRAME"),
                 _number(spot, "POSITION_X") / scale,
                 _number(spot, "POSITION_Y") / scale,
                 _number(spot, "MEMTRACK_BOX_WIDTH", math.nan) / scale,
                 _number(spot, "MEMTRACK_BOX_HEIGHT", math.nan) / scale,
-                _number(spot, "QUALITY", math.nan),
-                _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0,
+                # An interpolated spot has the quality 0, which TrackMate wants of each, and no score.
+                _number(spot, "MEMTRACK_SCORE", math.nan if interpolated else _number(spot, "QUALITY", math.nan)),
+                interpolated,
             )
     kept = {track.get("TRACK_ID") for track in model.iterfind("FilteredTracks/TrackID")}
     edges: list[tuple[int, int]] = []
