@@ -42,8 +42,8 @@ def run(args: argparse.Namespace) -> int:
     import cv2
 
     from memtrack.training.config import read_config
+    from memtrack.training.optimise import Workspace
     from memtrack.training.recipe import train
-    from memtrack.training.train import Workspace
 
     config = read_config(args.recipe)
     torch.set_num_threads(args.threads)

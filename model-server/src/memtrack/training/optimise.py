@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A training from its recipe to a registered model: films, optimisation, calibration, thresholds, card. Needs torch."""
+"""The optimisation of a net on samples, which can be interrupted and goes on from its checkpoint. Needs torch."""
 
 from __future__ import annotations
 
