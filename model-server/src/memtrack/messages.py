@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from memtrack.detections import Detections, FilterCounts, FrameDetections, Level
 from memtrack.headers import FilmRequest
 from memtrack.libraries import library_versions
-from memtrack.models import OPENVINO, Model, ModelCard
+from memtrack.models import Model, ModelCard
 from memtrack.pipeline import DetectionSettings, model_scale
 from memtrack.progress import Stage, Standing
 from memtrack.spool import SpooledFilm
@@ -27,7 +27,7 @@ def accepted(request: FilmRequest, model: Model, film: SpooledFilm) -> pb.Detect
             model_name=card.name,
             model_version=card.version,
             model_sha256=model.digest,
-            thresholds=thresholds(settings.thresholds or card.thresholds[settings.criterion]),
+            thresholds=thresholds(settings.pruner(card).thresholds),
             scale=scale,
             engine=engine_name(model, settings),
             warnings=warnings(request, scale),
@@ -37,9 +37,7 @@ def accepted(request: FilmRequest, model: Model, film: SpooledFilm) -> pb.Detect
 
 def engine_name(model: Model, settings: DetectionSettings) -> str:
     """The engine the settings come to, with its version."""
-    kind = settings.engine
-    if kind == "auto":
-        kind = "openvino" if OPENVINO in model.card.files else "torch"
+    kind = model.engine_kind(settings.engine)
     return f"{kind} {library_versions().get(kind, '(not installed)')} CPU"
 
 

@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -20,10 +18,10 @@ from memtrack.detector import detect
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.lookahead import ahead
-from memtrack.models import CRITERIA, Model
+from memtrack.models import CRITERIA, ENGINES, Model, ModelCard
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
-from memtrack.pruning import faint, prune
+from memtrack.pruning import PrunerSettings, faint, prune
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
@@ -68,18 +66,17 @@ class DetectionSettings:
     def __post_init__(self) -> None:
         if self.criterion not in CRITERIA:
             raise SettingsError(f"criterion {self.criterion!r} is unknown: use {' or '.join(CRITERIA)}")
-        if self.thresholds is not None and (
-            len(self.thresholds) != len(Level) or not all(0 <= t <= 1 for t in self.thresholds)
-        ):
-            raise SettingsError(f"thresholds {self.thresholds} are not three scores between 0 and 1")
-        if not 0 < self.max_size_px < math.inf:
-            raise SettingsError(f"max_size_px is {self.max_size_px}: give a size in pixels above 0")
-        if not 0 <= self.nms_iou <= 1:
-            raise SettingsError(f"nms_iou is {self.nms_iou}: give an overlap between 0 and 1")
+        PrunerSettings(self.thresholds or (0.0,) * len(Level), self.max_size_px, self.nms_iou)
+        if self.engine not in ENGINES:
+            raise SettingsError(f"engine {self.engine!r} is unknown: use one of {', '.join(ENGINES)}")
         if self.cell_length_px is not None and not 1 <= self.cell_length_px <= 200:
             raise SettingsError(f"cell_length_px is {self.cell_length_px}: give a length of 1 to 200 pixels")
         if not 1 <= self.threads <= 256:
             raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
+
+    def pruner(self, card: ModelCard) -> PrunerSettings:
+        """What is dropped of a model's candidates at its scale: by the thresholds given, or the criterion's."""
+        return PrunerSettings(self.thresholds or card.thresholds[self.criterion], self.max_size_px, self.nms_iou)
 
 
 def detect_film(
@@ -106,12 +103,7 @@ def detect_film(
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
-    limits: dict[str, Any] = {
-        "thresholds": settings.thresholds or model.card.thresholds[settings.criterion],
-        "max_size_px": settings.max_size_px / scale,
-        "nms_iou": settings.nms_iou,
-        "region": settings.region,
-    }
+    pruner, region = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale), settings.region
     engine = model.engine(settings.engine, threads=settings.threads)
 
     threads = settings.threads
@@ -119,7 +111,7 @@ def detect_film(
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     if isinstance(film, FilledFilm):
         margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
-        limits["region"] = _lit(film, settings.region, margin / scale)
+        region = _lit(film, region, margin / scale)
     done, count = 0, film.frame_count
     if motion.unlit:
         warn(
@@ -140,9 +132,10 @@ def detect_film(
             done = i + 1
             report(Stage.DETECTING, done, count)
             candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
-            kept, counts = prune(candidates, **limits)
+            kept, counts = prune(candidates, pruner, region)
             drift_x, drift_y = motion.drift[i] / factors
-            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
+            weak = faint(candidates, kept, pruner, region)
+            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
 
 
 def mended(film: Film) -> Film:
