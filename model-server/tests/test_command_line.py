@@ -72,7 +72,10 @@ def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -
 
 
 def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_path: Path) -> None:
-    out = tmp_path / "d.csv"
+    out, folder, recipe = tmp_path / "d.csv", tmp_path / "taken.tif", tmp_path / "small.toml"
+    folder.mkdir()
+    films = "[[{}]]\nfamily = 'water'\ncount = 1\nseed = 1\n"
+    recipe.write_text("[model]\nname = 'a'\n" + films.format("training") + films.format("validation"), encoding="utf-8")
     for words, sentence in [
         (("detect", tmp_path / "missing.tif", "--out", out), "there is no film"),
         (("detect", film, "--out", tmp_path / "d.xls"), "d.xls must end in .csv or .json"),
@@ -85,6 +88,11 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
             ("simulate", tmp_path / "missing" / "a.tif"),
             f"folder of {tmp_path / 'missing' / 'a.tif'} does not exist; make",
         ),
+        (("simulate", folder), "taken.tif is a folder; give the name of a file"),
+        (("train", tmp_path / "missing.toml"), "cannot read the training recipe"),
+        (("train", recipe, "--device", "toaster"), "--device is 'toaster', which PyTorch cannot use here"),
+        (("train", recipe, "--workspace", film), "choose another --workspace"),
+        (("train", recipe, "--workspace", tmp_path / "work", "--models", film), "choose another --models"),
     ]:
         done = memtrack(*words)
         assert done.returncode == 2

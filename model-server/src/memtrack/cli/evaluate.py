@@ -7,8 +7,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from memtrack.cli.arguments import positive, share, thresholds
-from memtrack.errors import InvalidInputError, SettingsError
+from memtrack.cli.arguments import make_folder, positive, share, thresholds
+from memtrack.errors import SettingsError
 from memtrack.evaluation import baselines
 from memtrack.evaluation.curves import CurvePoint, precision_recall_curve
 from memtrack.evaluation.evaluate import FilmData, Options, evaluate
@@ -107,10 +107,7 @@ def run(args: argparse.Namespace) -> int:
         options,
         _baselines(args.baselines, files, films, options),
     )
-    try:
-        args.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidInputError(f"cannot make the folder {args.out}: {error.strerror}; choose another --out") from error
+    make_folder(args.out, "--out")
     write_text(args.out / "evaluation.json", as_json(report))
     write_text(args.out / "evaluation.html", as_page(report))
     print(as_text(report))
