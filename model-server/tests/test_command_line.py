@@ -102,6 +102,18 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
         assert not out.exists()
 
 
+def test_detect_tells_what_the_server_would_warn_of(tmp_path: Path) -> None:
+    tifffile.imwrite(tmp_path / "one.tif", np.full((32, 40), 90, np.uint8))
+    done = memtrack("detect", tmp_path / "one.tif", "--out", tmp_path / "d.csv")
+    assert done.returncode == 0, done.stderr
+    notes = json.loads((tmp_path / "d.provenance.json").read_text(encoding="utf-8"))["film"]["notes"]
+    assert [line.removeprefix("Note: ") for line in done.stderr.splitlines() if line.startswith("Note: ")] == notes
+    assert [note.partition(";")[0] for note in notes] == [
+        "The film has no pixel size and no cell length was given, so it is used at its own scale",
+        "The film has 1 frame(s)",
+    ]
+
+
 def test_a_mistyped_value_is_refused_by_the_parser(film: Path, tmp_path: Path) -> None:
     detect = ("detect", film, "--out", tmp_path / "d.csv")
     for words, sentence in [

@@ -152,6 +152,28 @@ def _lit(film: FilledFilm, wanted: Bool[np.ndarray, "h w"] | None, margin_px: fl
     return lit if wanted is None else lit & wanted
 
 
+def caveats(film: Film, model: Model, settings: DetectionSettings) -> list[str]:
+    """What the user should know before `film` is worked on, one sentence each.
+
+    Raises:
+        SettingsError: see `model_scale`.
+    """
+    said, scale = [], model_scale(film, model, settings)
+    if film.calibration.pixel_size_um is None and settings.cell_length_px is None:
+        said.append(
+            "The film has no pixel size and no cell length was given, so it is used at its own scale; give one of them "
+            "if its cells are much longer or shorter than those the model knows."
+        )
+    if film.frame_count < 10:
+        said.append(
+            f"The film has {film.frame_count} frame(s); with fewer than 10 the still background cannot be told from "
+            "slow bacteria."
+        )
+    if not 0.25 <= scale <= 4:
+        said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
+    return said
+
+
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
     """Factor that brings the film's cells to a length the model knows; 1 where they have one already.
 

@@ -21,7 +21,7 @@ from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.libraries import engine_threads, library_versions
 from memtrack.models import CRITERIA, ENGINES, Model, load_model
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.pipeline import DetectionSettings, caveats, detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts, Standing
 from memtrack.video import open_film
 from memtrack.video.source import decode, grey
@@ -56,7 +56,8 @@ def run(options: argparse.Namespace) -> int:
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
     with open_film(options.film, Calibration(options.pixel_size_um, options.frame_interval_s)) as film:
-        _say(film.notes)
+        notes = [*film.notes, *caveats(film, model, settings)]
+        _say(notes)
         line = _ProgressLine(film.frame_count, quiet=options.quiet)
         film_sha256 = _sha256(film, line)
         learned: list[str] = []
@@ -64,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
         line.end()
         _say(learned)
         counts = sum((found.counts for found in frames), FilterCounts())
-        provenance = _provenance(options.film, film, (*film.notes, *learned), film_sha256, model, settings, counts)
+        provenance = _provenance(options.film, film, [*notes, *learned], film_sha256, model, settings, counts)
     for file in write_detections(options.out, frames, provenance):
         print(file)
     print(summary(counts, model, settings), file=sys.stderr)
@@ -124,7 +125,7 @@ def _sha256(film: Film, line: _ProgressLine) -> str:
 
 
 def _provenance(
-    path: Path, film: Film, notes: tuple[str, ...], film_sha256: str, model: Model, settings: DetectionSettings,
+    path: Path, film: Film, notes: list[str], film_sha256: str, model: Model, settings: DetectionSettings,
     counts: FilterCounts,
 ) -> dict[str, Any]:  # fmt: skip
     lowest = settings.pruner(model.card).thresholds
