@@ -49,6 +49,9 @@ class DetectionSettings:
     cell_length_px: length of a bacterium in pixels of this film. None: from the pixel size and 2 um, or, without a
         pixel size, such as the model knows.
     engine, threads: see `Model.engine`; as many frames are worked on at a time, and the result is the same.
+
+    Raises:
+        SettingsError: a value is unknown or out of range.
     """
 
     model: str = "default"
@@ -211,7 +214,13 @@ def _factor(known: tuple[float, float], length: float, given: str, wanted: str) 
 
 
 def to_film(found: Detections, rest: tuple[float, float], factors: Float64[np.ndarray, " 2"]) -> Detections:
-    """Detections on an aligned, scaled frame in the coordinates of the film's own frame."""
+    """Detections on an aligned, scaled frame in the coordinates of the film's own frame.
+
+    Args:
+        found: boxes in pixels of the aligned frame at the model's scale.
+        rest: what is left of that frame's drift (x, y) after the shift by whole pixels, likewise.
+        factors: by which the film's frames were scaled, (x, y).
+    """
     at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
     boxes = (at_model_scale + 0.5) / np.tile(factors, 2).astype(np.float32) - 0.5
     return Detections(boxes.astype(np.float32), found.scores, found.levels)

@@ -146,7 +146,10 @@ def _sum(first: Any, second: Any) -> Any:
 
 
 def evaluate(film: FilmData, options: Options) -> Evaluation:
-    """Compare what was found in one film with its truth."""
+    """Compare what was found in one film with its truth; both in pixels of the film and frames from 0.
+
+    Without tracks only the detector's steps are counted; without candidates only the tracks.
+    """
     steps = {
         name: compare(film.truth, found, options.criterion).counts for name, found in _detection_steps(film, options)
     }

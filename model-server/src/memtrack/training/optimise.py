@@ -56,7 +56,11 @@ def architecture(model: ModelSettings) -> dict[str, object]:
 
 
 def new_net(model: ModelSettings) -> Net:
-    """The net to train: fresh, or with the weights of the model to start from."""
+    """The net to train: fresh, or with the weights of the model to start from.
+
+    Raises:
+        ModelNotFoundError: that model is missing, or has other features or another net.
+    """
     channels = len(SPECS[model.features].channels)
     net = build(architecture(model), channels)
     if model.start_from:
