@@ -12,7 +12,7 @@ import argparse
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import cv2
 import numpy as np
@@ -53,9 +53,9 @@ def main() -> None:
     engine.run(padded(features[0]))
     maps = timed("net", n, lambda: [engine.run(padded(f)) for f in features])
     found = timed("decoding", n, lambda: [decoder.decode(m, film.height, film.width) for m in maps])
-    limits: dict[str, Any] = {"thresholds": model.card.thresholds["max_f1"], "max_size_px": 35.0, "nms_iou": 0.7}
-    timed("pruning", n, lambda: [faint(d, prune(d, **limits)[0], **limits) for d in found])
     settings = DetectionSettings(threads=args.threads)
+    pruner = settings.pruner(model.card)
+    timed("pruning", n, lambda: [faint(d, prune(d, pruner)[0], pruner) for d in found])
     timed("the whole", n, lambda: list(detect_film(film, model, settings, lambda stage, done, total: None)))
 
 

@@ -72,7 +72,10 @@ def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -
 
 
 def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_path: Path) -> None:
-    out = tmp_path / "d.csv"
+    out, folder, recipe = tmp_path / "d.csv", tmp_path / "taken.tif", tmp_path / "small.toml"
+    folder.mkdir()
+    films = "[[{}]]\nfamily = 'water'\ncount = 1\nseed = 1\n"
+    recipe.write_text("[model]\nname = 'a'\n" + films.format("training") + films.format("validation"), encoding="utf-8")
     for words, sentence in [
         (("detect", tmp_path / "missing.tif", "--out", out), "there is no film"),
         (("detect", film, "--out", tmp_path / "d.xls"), "d.xls must end in .csv or .json"),
@@ -85,6 +88,11 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
             ("simulate", tmp_path / "missing" / "a.tif"),
             f"folder of {tmp_path / 'missing' / 'a.tif'} does not exist; make",
         ),
+        (("simulate", folder), "taken.tif is a folder; give the name of a file"),
+        (("train", tmp_path / "missing.toml"), "cannot read the training recipe"),
+        (("train", recipe, "--device", "toaster"), "--device is 'toaster', which PyTorch cannot use here"),
+        (("train", recipe, "--workspace", film), "choose another --workspace"),
+        (("train", recipe, "--workspace", tmp_path / "work", "--models", film), "choose another --models"),
     ]:
         done = memtrack(*words)
         assert done.returncode == 2
@@ -92,6 +100,18 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
         assert done.stderr.count("\n") == 1
         assert sentence in done.stderr
         assert not out.exists()
+
+
+def test_detect_tells_what_the_server_would_warn_of(tmp_path: Path) -> None:
+    tifffile.imwrite(tmp_path / "one.tif", np.full((32, 40), 90, np.uint8))
+    done = memtrack("detect", tmp_path / "one.tif", "--out", tmp_path / "d.csv")
+    assert done.returncode == 0, done.stderr
+    notes = json.loads((tmp_path / "d.provenance.json").read_text(encoding="utf-8"))["film"]["notes"]
+    assert [line.removeprefix("Note: ") for line in done.stderr.splitlines() if line.startswith("Note: ")] == notes
+    assert [note.partition(";")[0] for note in notes] == [
+        "The film has no pixel size and no cell length was given, so it is used at its own scale",
+        "The film has 1 frame(s)",
+    ]
 
 
 def test_a_mistyped_value_is_refused_by_the_parser(film: Path, tmp_path: Path) -> None:

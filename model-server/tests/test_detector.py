@@ -10,7 +10,7 @@ from memtrack.detector import Decoder, detect, padded
 from memtrack.engines import OpenVinoEngine
 from memtrack.errors import EngineUnavailableError, SettingsError
 from memtrack.models import load_model
-from memtrack.pruning import prune
+from memtrack.pruning import PrunerSettings, prune
 
 
 class Fixed:
@@ -106,7 +106,7 @@ def test_a_large_frame_keeps_the_candidates_of_all_its_bacteria() -> None:
     centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
     expected = np.stack([columns, rows], axis=1) * 4 + 3.5
     np.testing.assert_allclose(np.unique(centres, axis=0), np.unique(expected, axis=0), atol=1e-3)
-    kept, _ = prune(found, thresholds=(0.5, 0.5, 0.5), max_size_px=35, nms_iou=0.7)
+    kept, _ = prune(found, PrunerSettings((0.5, 0.5, 0.5)))
     assert len(kept) == 1100
 
 

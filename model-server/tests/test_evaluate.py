@@ -16,8 +16,8 @@ from memtrack.detections_io import write_detections
 from memtrack.evaluation.charts import Axis, Series, histogram, line_chart
 from memtrack.evaluation.evaluate import Evaluation, FilmData, Options, Speeds, evaluate
 from memtrack.evaluation.matching import Counts
-from memtrack.evaluation.stages import PrunerSettings
 from memtrack.film import Calibration
+from memtrack.pruning import PrunerSettings
 from memtrack.tracks import Motility, TrackTable
 from memtrack.tracks_io import write_tracks
 

@@ -42,7 +42,7 @@ def gel() -> SimulatedFilm:
 
 
 def run(film: ArrayFilm | ScaledFilm, model: Model, **settings: object) -> list[FrameDetections]:
-    wanted = DetectionSettings(criterion="max_f1", **settings)  # type: ignore[arg-type]
+    wanted = DetectionSettings(**settings)  # type: ignore[arg-type]
     return list(detect_film(film, model, wanted, lambda stage, done, total: None))
 
 
@@ -263,11 +263,12 @@ def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, m
     ("settings", "message"),
     [
         ({"criterion": "best"}, "criterion 'best' is unknown"),
-        ({"thresholds": (0.5, 0.5, 1.5)}, "are not three scores between 0 and 1"),
+        ({"thresholds": (0.5, 0.5, 1.5)}, "give 3 numbers from 0 to 1"),
         ({"max_size_px": 0.0}, "max_size_px is 0.0"),
         ({"nms_iou": -0.1}, "nms_iou is -0.1"),
         ({"cell_length_px": 0.5}, "cell_length_px is 0.5"),
         ({"threads": 0}, "threads is 0"),
+        ({"engine": "warp"}, "engine 'warp' is unknown: use one of auto, openvino, torch"),
     ],
 )
 def test_settings_out_of_range_are_refused_with_their_value(settings: dict[str, object], message: str) -> None:

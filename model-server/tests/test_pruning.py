@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from typing import Any
-
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
 from memtrack.boxes import square_boxes
 from memtrack.detections import Detections
-from memtrack.pruning import faint, prune
+from memtrack.pruning import PrunerSettings, faint, prune
 
 
 def detections(*rows: tuple[float, float, float, float, int]) -> Detections:
@@ -28,7 +26,7 @@ def test_each_filter_drops_its_own() -> None:
     )
     region = np.ones((200, 200), bool)
     region[100:, 100:] = False
-    kept, counts = prune(candidates, thresholds=(0.4, 0.6, 0.2), max_size_px=35, nms_iou=0.7, region=region)
+    kept, counts = prune(candidates, PrunerSettings((0.4, 0.6, 0.2)), region)
     np.testing.assert_allclose(kept.scores, [0.9, 0.45])
     np.testing.assert_allclose((kept.boxes[:, 0] + kept.boxes[:, 2]) / 2, [50, 58])
     assert (counts.candidates, counts.too_large, counts.near_misses) == (6, 1, 1)
@@ -36,12 +34,12 @@ def test_each_filter_drops_its_own() -> None:
 
 
 def test_a_box_of_exactly_the_limits_stays() -> None:
-    kept, _ = prune(detections((50, 50, 35, 0.5, 0)), thresholds=(0.5, 1, 1), max_size_px=35, nms_iou=0.7)
+    kept, _ = prune(detections((50, 50, 35, 0.5, 0)), PrunerSettings((0.5, 1.0, 1.0)))
     assert len(kept) == 1
 
 
 def test_nothing_in_nothing_out() -> None:
-    kept, counts = prune(Detections.empty(), thresholds=(0, 0, 0), max_size_px=35, nms_iou=0.7)
+    kept, counts = prune(Detections.empty(), PrunerSettings((0.0, 0.0, 0.0)))
     assert len(kept) == 0
     assert counts.candidates == 0
 
@@ -59,13 +57,13 @@ def test_faint_boxes_are_those_that_only_the_threshold_drops() -> None:
     )
     region = np.ones((200, 200), bool)
     region[100:, 100:] = False
-    limits: dict[str, Any] = {"thresholds": (0.45, 0.45, 0.25), "max_size_px": 35.0, "nms_iou": 0.7, "region": region}
-    kept, _ = prune(candidates, **limits)
-    found = faint(candidates, kept, **limits)
+    settings = PrunerSettings((0.45, 0.45, 0.25))
+    kept, _ = prune(candidates, settings, region)
+    found = faint(candidates, kept, settings, region)
     np.testing.assert_allclose(kept.scores, [0.5, 0.3])
     np.testing.assert_allclose(found.scores, [0.2])
     np.testing.assert_allclose(found.boxes[0], [35, 135, 65, 165])
-    assert len(faint(Detections.empty(), Detections.empty(), **limits)) == 0
+    assert len(faint(Detections.empty(), Detections.empty(), settings, region)) == 0
 
 
 row = st.tuples(st.floats(0, 60), st.floats(0, 60), st.floats(10, 50), st.floats(0, 1, width=32), st.integers(0, 2))
@@ -78,11 +76,12 @@ def test_pruning_never_adds_and_its_counts_add_up(
     candidates = detections(*rows)
     region = np.zeros((61, 61), bool)
     region[:, 20:] = True
-    kept, c = prune(candidates, thresholds=thresholds, max_size_px=35, nms_iou=iou, region=region)
+    settings = PrunerSettings(thresholds, nms_iou=iou)
+    kept, c = prune(candidates, settings, region)
     given_boxes = {tuple(box) for box in candidates.boxes.tolist()}
     assert all(tuple(box) in given_boxes for box in kept.boxes.tolist())
     assert c.candidates == len(rows)
     assert c.kept == len(kept)
     assert c.candidates == c.too_large + c.near_misses + c.overlapping + c.outside_region + c.kept
-    again, _ = prune(kept, thresholds=thresholds, max_size_px=35, nms_iou=iou, region=region)
+    again, _ = prune(kept, settings, region)
     np.testing.assert_array_equal(again.boxes, kept.boxes)

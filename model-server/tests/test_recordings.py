@@ -14,7 +14,7 @@ from memtrack.simulation.recipe import Recipe
 from memtrack.simulation.swimming import Gait
 
 LOOK = Look(length=9, width=4, contrast=-80, halo=0.2, halo_radius=11, flip=0, relief=0, relief_angle=0)
-PLAIN = Recipe(width=160, height=121, frames=20, decoys=0, gaits=(Gait.SWIMMING,) * 6, looks=(LOOK,) * 6)
+PLAIN = Recipe(width=160, height=121, frames=20, gaits=(Gait.SWIMMING,) * 6, looks=(LOOK,) * 6)
 
 
 def frames(of: SimulatedFilm) -> np.ndarray:

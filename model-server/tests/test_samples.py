@@ -7,15 +7,31 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import tifffile
 
 import memtrack
+from memtrack import pipeline
+from memtrack.channels import Channel
+from memtrack.defects import without_defects
+from memtrack.detections import Detections
+from memtrack.detector import Decoder, Engine, detect
 from memtrack.errors import SettingsError
-from memtrack.film import Calibration
+from memtrack.film import ArrayFilm, Calibration
+from memtrack.models import load_model
 from memtrack.motion import MOTION
+from memtrack.pipeline import DetectionSettings, detect_film
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable
-from memtrack.training.films import _SHAPING, SimulatedSet, simulated_samples, with_motility
+from memtrack.tracks_io import write_tracks
+from memtrack.training.films import (
+    _SHAPING,
+    Annotated,
+    SimulatedSet,
+    annotated_samples,
+    simulated_samples,
+    with_motility,
+)
 from memtrack.training.samples import extract
 
 
@@ -70,3 +86,29 @@ def test_motility_is_measured_where_a_file_does_not_say_it() -> None:
     assert set(measured.motility[measured.ids == 2]) == {Motility.MEDIUM}
     with pytest.raises(SettingsError, match=r"a\.mdf has bacteria without a motility class"):
         with_motility(replace(truth, calibration=Calibration()), "a.mdf")
+
+
+def test_an_annotated_film_has_the_features_that_detection_sees(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a camera with stuck pixels, a bar at the side, and a stage that drifts them over the scene."""
+    recipe = draw_recipe("collagen", np.random.default_rng(5), width=128, height=96, frames=24)
+    made = simulate(replace(recipe, bits=8, drift_per_frame=(0.4, -0.3), scale=1.0, pixel_size_um=0.2475), 1)
+    frames = made.film.frames.copy()
+    frames[:, [12, 50, 71], [60, 77, 90]] = 255
+    frames[:, :, :20] = 0
+    assert without_defects(ArrayFilm(frames)).frame(0)[12, 60] < 255
+    tifffile.imwrite(tmp_path / "film.tif", frames)
+    write_tracks(tmp_path / "film.csv", made.truth)
+    model, shown = load_model(), list[np.ndarray]()
+    entry = Annotated("film.tif", "film.csv", pixel_size_um=0.2475, frame_interval_seconds=1 / 60)
+    (samples,) = annotated_samples([entry], model.card.features, model.card.cell_length_px, tmp_path, seed=1)
+
+    def listening(engine: Engine, decoder: Decoder, channels: list[Channel]) -> Detections:
+        shown.append(np.stack(channels))
+        return detect(engine, decoder, channels)
+
+    monkeypatch.setattr(pipeline, "detect", listening)
+    film = ArrayFilm(frames, Calibration(0.2475, 1 / 60))
+    list(detect_film(film, model, DetectionSettings(threads=1), lambda stage, done, total: None))
+    np.testing.assert_array_equal(samples.features, np.stack(shown))

@@ -22,7 +22,7 @@ from memtrack.tracks import Motility
 from memtrack.tracks_io import read_tracks
 
 LOOK = Look(length=9, width=4, contrast=100, halo=0.2, halo_radius=11, flip=0, relief=0, relief_angle=0)
-QUIET = Recipe(width=160, height=120, frames=12, texture=0.0, shading=0.0, read_noise=0.0, shot_noise=0.0, decoys=0)
+QUIET = Recipe(width=160, height=120, frames=12, texture=0.0, shading=0.0, read_noise=0.0, shot_noise=0.0)
 
 
 def test_the_same_seed_makes_the_same_film_and_another_one_another() -> None:
@@ -232,7 +232,7 @@ def test_families_that_are_hard_in_one_respect_are_so() -> None:
         assert np.median([abs(look.contrast) for look in recipe.looks] or [0]) <= 5 * noise + 1e-6
     for recipe in drawn("specks"):
         assert len(recipe.gaits) <= 6
-        assert not recipe.decoys or (recipe.decoys >= 5 and recipe.wobble >= 0.1)
+        assert not recipe.decoy_looks or (len(recipe.decoy_looks) >= 5 and recipe.wobble >= 0.1)
     assert all(6 <= recipe.frames <= 30 for recipe in drawn("brief"))
     asked = [draw_recipe(family, np.random.default_rng(1), width=200, height=160, frames=77) for family in FAMILIES]
     assert {recipe.frames for recipe in asked} == {77}

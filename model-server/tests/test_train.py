@@ -10,9 +10,9 @@ from memtrack.errors import ModelNotFoundError, SettingsError
 from memtrack.motion import MOTION
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
 from memtrack.training.films import SimulatedSet
+from memtrack.training.optimise import Workspace, optimise
 from memtrack.training.recipe import train
 from memtrack.training.samples import FilmSamples
-from memtrack.training.train import Workspace, optimise
 from spots import samples
 
 

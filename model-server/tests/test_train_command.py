@@ -22,7 +22,7 @@ from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks_io import write_tracks
 from memtrack.training.config import read_config
-from memtrack.training.train import new_net
+from memtrack.training.optimise import new_net
 
 
 def arguments(module: object, *words: str) -> argparse.Namespace:

@@ -11,11 +11,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import UInt8
 
-from memtrack.detector import Engine, Maps
+from memtrack.detector import Maps
 from memtrack.errors import EngineUnavailableError
 from memtrack.libraries import load_openvino
-
-ENGINES = ("openvino", "torch")
 
 
 class OpenVinoEngine:
@@ -84,6 +82,3 @@ class TorchEngine:
         with self._torch.inference_mode():
             maps: Maps = self.net(self._torch.from_numpy(features[None]))[0].float().numpy()
             return maps
-
-
-__all__ = ["ENGINES", "Engine", "OpenVinoEngine", "TorchEngine"]

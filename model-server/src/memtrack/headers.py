@@ -22,7 +22,7 @@ DTYPES: dict[int, np.dtype[np.generic]] = {
     pb.PIXEL_TYPE_FLOAT32: np.dtype("<f4"),
 }
 CRITERIA = {
-    pb.CRITERION_UNSPECIFIED: "max_precision",
+    pb.CRITERION_UNSPECIFIED: "max_f1",
     pb.CRITERION_MAX_PRECISION: "max_precision",
     pb.CRITERION_MAX_F1: "max_f1",
 }

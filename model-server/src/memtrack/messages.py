@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from memtrack.detections import Detections, FilterCounts, FrameDetections, Level
 from memtrack.headers import FilmRequest
 from memtrack.libraries import library_versions
-from memtrack.models import OPENVINO, Model, ModelCard
-from memtrack.pipeline import DetectionSettings, model_scale
+from memtrack.models import Model, ModelCard
+from memtrack.pipeline import DetectionSettings, caveats, model_scale
 from memtrack.progress import Stage, Standing
 from memtrack.spool import SpooledFilm
 from memtrack.v1 import detection_pb2 as pb
@@ -21,44 +21,23 @@ LEVELS = {Level.LOW: pb.LEVEL_LOW, Level.MEDIUM: pb.LEVEL_MEDIUM, Level.HIGH: pb
 def accepted(request: FilmRequest, model: Model, film: SpooledFilm) -> pb.DetectFilmResponse:
     """What will be done with the film."""
     settings, card = request.settings, model.card
-    scale = model_scale(film, model, settings)
     return pb.DetectFilmResponse(
         accepted=pb.Accepted(
             model_name=card.name,
             model_version=card.version,
             model_sha256=model.digest,
-            thresholds=thresholds(settings.thresholds or card.thresholds[settings.criterion]),
-            scale=scale,
+            thresholds=thresholds(settings.pruner(card).thresholds),
+            scale=model_scale(film, model, settings),
             engine=engine_name(model, settings),
-            warnings=warnings(request, scale),
+            warnings=caveats(film, model, settings),
         )
     )
 
 
 def engine_name(model: Model, settings: DetectionSettings) -> str:
     """The engine the settings come to, with its version."""
-    kind = settings.engine
-    if kind == "auto":
-        kind = "openvino" if OPENVINO in model.card.files else "torch"
+    kind = model.engine_kind(settings.engine)
     return f"{kind} {library_versions().get(kind, '(not installed)')} CPU"
-
-
-def warnings(request: FilmRequest, scale: float) -> list[str]:
-    """What the user should know about the film and the settings, one sentence each."""
-    said = []
-    if request.calibration.pixel_size_um is None and request.settings.cell_length_px is None:
-        said.append(
-            "The film has no pixel size and no cell length was given, so it is used at its own scale; give one of them "
-            "if its cells are much longer or shorter than those the model knows."
-        )
-    if request.geometry.frame_count < 10:
-        said.append(
-            f"The film has {request.geometry.frame_count} frame(s); with fewer than 10 the still background cannot be "
-            "told from slow bacteria."
-        )
-    if not 0.25 <= scale <= 4:
-        said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
-    return said
 
 
 def progress(standing: Standing, films_ahead: int = 0) -> pb.DetectFilmResponse:

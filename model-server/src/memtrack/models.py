@@ -31,6 +31,7 @@ WEIGHTS = "weights.safetensors"
 OPENVINO = "openvino.xml"
 NAME = re.compile(r"[a-z0-9_.-]{1,64}")
 CRITERIA = ("max_precision", "max_f1")
+ENGINES = ("auto", "openvino", "torch")
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,26 +104,30 @@ class Model:
         """The weights in safetensors."""
         return self.folder / WEIGHTS
 
+    def engine_kind(self, kind: str = "auto") -> str:
+        """The engine that `kind` of ENGINES comes to: 'auto' is OpenVINO where the model has its form, else torch.
+
+        Raises:
+            SettingsError: no such engine.
+            EngineUnavailableError: the model has no form of it.
+        """
+        if kind not in ENGINES:
+            raise SettingsError(f"engine {kind!r} is unknown: use one of {', '.join(ENGINES)}")
+        has_openvino = OPENVINO in self.card.files
+        if kind == "openvino" and not has_openvino:
+            raise EngineUnavailableError(f"model {self.card.name} {self.card.version} has no OpenVINO form: use torch")
+        return ("openvino" if has_openvino else "torch") if kind == "auto" else kind
+
     def engine(self, kind: str = "auto", *, threads: int = 1) -> Engine:
-        """The net ready to run: 'openvino', 'torch', or 'auto' (OpenVINO where the model has its form, else torch).
+        """The net ready to run by the engine that `kind` comes to.
 
         Raises:
             SettingsError: no such engine.
             EngineUnavailableError: the model has no form of it, or its library is not installed.
         """
-        match kind:
-            case "auto":
-                return self.engine("openvino" if OPENVINO in self.card.files else "torch", threads=threads)
-            case "openvino" if OPENVINO in self.card.files:
-                return OpenVinoEngine(self.folder / OPENVINO, threads)
-            case "openvino":
-                raise EngineUnavailableError(
-                    f"model {self.card.name} {self.card.version} has no OpenVINO form: use torch"
-                )
-            case "torch":
-                return TorchEngine(self.card.architecture, len(self.card.features.channels), self.weights)
-            case _:
-                raise SettingsError(f"engine {kind!r} is unknown: use auto, openvino or torch")
+        if self.engine_kind(kind) == "openvino":
+            return OpenVinoEngine(self.folder / OPENVINO, threads)
+        return TorchEngine(self.card.architecture, len(self.card.features.channels), self.weights)
 
 
 def user_models() -> Path:

@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -20,10 +18,10 @@ from memtrack.detector import detect
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.lookahead import ahead
-from memtrack.models import CRITERIA, Model
+from memtrack.models import CRITERIA, ENGINES, Model, ModelCard
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
-from memtrack.pruning import faint, prune
+from memtrack.pruning import PrunerSettings, faint, prune
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
@@ -42,7 +40,7 @@ class DetectionSettings:
     """How one film is to be processed.
 
     model, version: of the registry; version None is the newest.
-    criterion: which of the model's thresholds to use, 'max_precision' (the paper's default) or 'max_f1'.
+    criterion: which of the model's thresholds to use, 'max_f1' as in the plug-in, or 'max_precision' as in the paper.
     thresholds: lowest score a level (low, medium, high), each 0 to 1; overrides the criterion.
     max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where boxes are 30.
     nms_iou: of boxes that overlap more only the best stays; 0.7 in the paper.
@@ -51,11 +49,14 @@ class DetectionSettings:
     cell_length_px: length of a bacterium in pixels of this film. None: from the pixel size and 2 um, or, without a
         pixel size, such as the model knows.
     engine, threads: see `Model.engine`; as many frames are worked on at a time, and the result is the same.
+
+    Raises:
+        SettingsError: a value is unknown or out of range.
     """
 
     model: str = "default"
     version: str | None = None
-    criterion: str = "max_precision"
+    criterion: str = "max_f1"
     thresholds: tuple[float, float, float] | None = None
     max_size_px: float = 35.0
     nms_iou: float = 0.7
@@ -68,18 +69,17 @@ class DetectionSettings:
     def __post_init__(self) -> None:
         if self.criterion not in CRITERIA:
             raise SettingsError(f"criterion {self.criterion!r} is unknown: use {' or '.join(CRITERIA)}")
-        if self.thresholds is not None and (
-            len(self.thresholds) != len(Level) or not all(0 <= t <= 1 for t in self.thresholds)
-        ):
-            raise SettingsError(f"thresholds {self.thresholds} are not three scores between 0 and 1")
-        if not 0 < self.max_size_px < math.inf:
-            raise SettingsError(f"max_size_px is {self.max_size_px}: give a size in pixels above 0")
-        if not 0 <= self.nms_iou <= 1:
-            raise SettingsError(f"nms_iou is {self.nms_iou}: give an overlap between 0 and 1")
+        PrunerSettings(self.thresholds or (0.0,) * len(Level), self.max_size_px, self.nms_iou)
+        if self.engine not in ENGINES:
+            raise SettingsError(f"engine {self.engine!r} is unknown: use one of {', '.join(ENGINES)}")
         if self.cell_length_px is not None and not 1 <= self.cell_length_px <= 200:
             raise SettingsError(f"cell_length_px is {self.cell_length_px}: give a length of 1 to 200 pixels")
         if not 1 <= self.threads <= 256:
             raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
+
+    def pruner(self, card: ModelCard) -> PrunerSettings:
+        """What is dropped of a model's candidates at its scale: by the thresholds given, or the criterion's."""
+        return PrunerSettings(self.thresholds or card.thresholds[self.criterion], self.max_size_px, self.nms_iou)
 
 
 def detect_film(
@@ -102,16 +102,11 @@ def detect_film(
         EngineUnavailableError: the model's computing library is not installed.
     """
     _check(film, settings)
-    film = without_blanks(without_defects(film))
+    film = mended(film)
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
-    limits: dict[str, Any] = {
-        "thresholds": settings.thresholds or model.card.thresholds[settings.criterion],
-        "max_size_px": settings.max_size_px / scale,
-        "nms_iou": settings.nms_iou,
-        "region": settings.region,
-    }
+    pruner, region = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale), settings.region
     engine = model.engine(settings.engine, threads=settings.threads)
 
     threads = settings.threads
@@ -119,7 +114,7 @@ def detect_film(
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     if isinstance(film, FilledFilm):
         margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
-        limits["region"] = _lit(film, settings.region, margin / scale)
+        region = _lit(film, region, margin / scale)
     done, count = 0, film.frame_count
     if motion.unlit:
         warn(
@@ -140,15 +135,46 @@ def detect_film(
             done = i + 1
             report(Stage.DETECTING, done, count)
             candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
-            kept, counts = prune(candidates, **limits)
+            kept, counts = prune(candidates, pruner, region)
             drift_x, drift_y = motion.drift[i] / factors
-            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), faint(candidates, kept, **limits))
+            weak = faint(candidates, kept, pruner, region)
+            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
+
+
+def mended(film: Film) -> Film:
+    """`film` as every later step sees it, in training too: defective pixels replaced and blank parts filled.
+
+    The same object where there are none. Reads up to 24 frames twice.
+    """
+    return without_blanks(without_defects(film))
 
 
 def _lit(film: FilledFilm, wanted: Bool[np.ndarray, "h w"] | None, margin_px: float) -> Bool[np.ndarray, "h w"]:
     """Where detections count."""
     lit = film.lit(margin_px)
     return lit if wanted is None else lit & wanted
+
+
+def caveats(film: Film, model: Model, settings: DetectionSettings) -> list[str]:
+    """What the user should know before `film` is worked on, one sentence each.
+
+    Raises:
+        SettingsError: see `model_scale`.
+    """
+    said, scale = [], model_scale(film, model, settings)
+    if film.calibration.pixel_size_um is None and settings.cell_length_px is None:
+        said.append(
+            "The film has no pixel size and no cell length was given, so it is used at its own scale; give one of them "
+            "if its cells are much longer or shorter than those the model knows."
+        )
+    if film.frame_count < 10:
+        said.append(
+            f"The film has {film.frame_count} frame(s); with fewer than 10 the still background cannot be told from "
+            "slow bacteria."
+        )
+    if not 0.25 <= scale <= 4:
+        said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
+    return said
 
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
@@ -188,7 +214,13 @@ def _factor(known: tuple[float, float], length: float, given: str, wanted: str) 
 
 
 def to_film(found: Detections, rest: tuple[float, float], factors: Float64[np.ndarray, " 2"]) -> Detections:
-    """Detections on an aligned, scaled frame in the coordinates of the film's own frame."""
+    """Detections on an aligned, scaled frame in the coordinates of the film's own frame.
+
+    Args:
+        found: boxes in pixels of the aligned frame at the model's scale.
+        rest: what is left of that frame's drift (x, y) after the shift by whole pixels, likewise.
+        factors: by which the film's frames were scaled, (x, y).
+    """
     at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
     boxes = (at_model_scale + 0.5) / np.tile(factors, 2).astype(np.float32) - 0.5
     return Detections(boxes.astype(np.float32), found.scores, found.levels)

@@ -3,38 +3,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool
 
 from memtrack.boxes import non_maximum_suppression
-from memtrack.detections import Detections, FilterCounts
+from memtrack.detections import Detections, FilterCounts, Level
+from memtrack.errors import SettingsError
+
+
+@dataclass(frozen=True, slots=True)
+class PrunerSettings:
+    """What the pruner drops.
+
+    thresholds: the lowest score kept, 0 to 1, one for each level, in the order of `Level`.
+    max_size_px: a box wider or higher than this is dropped; 35 in the paper.
+    nms_iou: of two boxes that overlap more, 0 to 1, the better scored one stays, whatever its level; 0.7 in the paper.
+
+    Raises:
+        SettingsError: a value is out of range.
+    """
+
+    thresholds: tuple[float, ...]
+    max_size_px: float = 35.0
+    nms_iou: float = 0.7
+
+    def __post_init__(self) -> None:
+        if len(self.thresholds) != len(Level) or not all(0 <= value <= 1 for value in self.thresholds):
+            raise SettingsError(
+                f"thresholds are {', '.join(map(str, self.thresholds))}; give {len(Level)} numbers from 0 to 1, "
+                "for low, medium and high motility"
+            )
+        if not 0 < self.max_size_px < math.inf:
+            raise SettingsError(f"max_size_px is {self.max_size_px}: give a size in pixels above 0")
+        if not 0 <= self.nms_iou <= 1:
+            raise SettingsError(f"nms_iou is {self.nms_iou}: give an overlap between 0 and 1")
 
 
 def prune(
-    candidates: Detections,
-    *,
-    thresholds: Sequence[float],
-    max_size_px: float,
-    nms_iou: float,
-    region: Bool[np.ndarray, "height width"] | None = None,
+    candidates: Detections, settings: PrunerSettings, region: Bool[np.ndarray, "height width"] | None = None
 ) -> tuple[Detections, FilterCounts]:
     """Drops boxes in the paper's order: too wide or high, scored too low, overlapping a better one, outside the region.
 
     Args:
         candidates: boxes of all levels in the coordinates of the film.
-        thresholds: the lowest score kept, one for each level, in the order of `Level`.
-        max_size_px: a box wider or higher than this is dropped (35 in the paper).
-        nms_iou: of two boxes that overlap more, the better scored one stays, whatever its level (0.7 in the paper).
+        settings: what is dropped.
         region: where detections are wanted; a box counts as inside when its centre is.
 
     Returns:
         The detections kept, best first, and how many each filter dropped.
     """
-    sized = candidates.select(_fits(candidates, max_size_px))
-    confident = sized.select(_passes(sized, thresholds))
-    distinct = confident.select(non_maximum_suppression(confident.boxes, confident.scores, nms_iou))
+    sized = candidates.select(_fits(candidates, settings))
+    confident = sized.select(_passes(sized, settings))
+    distinct = confident.select(non_maximum_suppression(confident.boxes, confident.scores, settings.nms_iou))
     kept = distinct if region is None else distinct.select(_inside(distinct, region))
     return kept, FilterCounts(
         candidates=len(candidates),
@@ -49,35 +72,32 @@ def prune(
 def faint(
     candidates: Detections,
     kept: Detections,
-    *,
-    thresholds: Sequence[float],
-    max_size_px: float,
-    nms_iou: float,
+    settings: PrunerSettings,
     region: Bool[np.ndarray, "height width"] | None = None,
 ) -> Detections:
     """The boxes that only the score threshold drops: they overlap neither a `kept` one nor a better one of their own.
 
     In one frame most are no bacteria; one that is found again and again along a track is.
     """
-    near = candidates.select(_fits(candidates, max_size_px) & ~_passes(candidates, thresholds))
+    near = candidates.select(_fits(candidates, settings) & ~_passes(candidates, settings))
     if region is not None:
         near = near.select(_inside(near, region))
     # Most are of one bacterium and were led to one place; telling these first keeps the overlaps few.
     near = near.select(np.argsort(-near.scores, kind="stable"))
     near = near.select(np.sort(np.unique(near.boxes, axis=0, return_index=True)[1]))
     boxes = np.concatenate([kept.boxes, near.boxes])
-    stay = non_maximum_suppression(boxes, np.concatenate([kept.scores + 1, near.scores]), nms_iou)
+    stay = non_maximum_suppression(boxes, np.concatenate([kept.scores + 1, near.scores]), settings.nms_iou)
     return near.select(stay[stay >= len(kept)] - len(kept))
 
 
-def _fits(detections: Detections, max_size_px: float) -> Bool[np.ndarray, " n"]:
+def _fits(detections: Detections, settings: PrunerSettings) -> Bool[np.ndarray, " n"]:
     size = detections.boxes[:, 2:] - detections.boxes[:, :2]
-    fits: np.ndarray = size.max(axis=1, initial=0) <= max_size_px
+    fits: np.ndarray = size.max(axis=1, initial=0) <= settings.max_size_px
     return fits
 
 
-def _passes(detections: Detections, thresholds: Sequence[float]) -> Bool[np.ndarray, " n"]:
-    passes: np.ndarray = detections.scores >= np.asarray(thresholds, np.float32)[detections.levels]
+def _passes(detections: Detections, settings: PrunerSettings) -> Bool[np.ndarray, " n"]:
+    passes: np.ndarray = detections.scores >= np.asarray(settings.thresholds, np.float32)[detections.levels]
     return passes
 
 

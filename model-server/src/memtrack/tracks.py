@@ -52,6 +52,9 @@ class TrackTable:
     scores: in [0, 1] or the source's own quality, NaN where it has none.
     interpolated: the point was predicted or filled in, not seen. ignored: a truth row that is neither right nor
     wrong to find. motility: a value of `Motility` a row. calibration: what the file says of the film.
+
+    Raises:
+        ValueError: see `TrackTable.of`.
     """
 
     frames: Int64[np.ndarray, " n"]

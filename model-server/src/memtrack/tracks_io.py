@@ -58,7 +58,7 @@ def read_tracks(path: Path, calibration: Calibration = UNCALIBRATED, *, linked_o
 def write_tracks(path: Path, table: TrackTable, *, film: trackmate_writer.FilmFile | None = None) -> None:
     """Write tracks as CSV (.csv), MTrackJ (.mdf) or TrackMate (.xml), whole or not at all.
 
-    `film` lets TrackMate open the tracks on their film. MDF has no room for boxes, scores and interpolation.
+    `film` lets TrackMate open the tracks on their film. MDF has no room for boxes and scores.
 
     Raises:
         InvalidInputError: another ending, or the file cannot be written.

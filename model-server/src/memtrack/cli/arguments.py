@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 from pathlib import Path
 
 from memtrack.errors import SettingsError
@@ -55,6 +56,23 @@ def thresholds(text: str) -> tuple[float, float, float]:
 
 
 def check_folder_of(path: Path) -> None:
-    """Raises SettingsError where the folder that `path` is to be written to is missing, before any work is done."""
-    if not path.resolve().parent.is_dir():
+    """Raises SettingsError where no file `path` can be written, before any work is done."""
+    folder = path.resolve().parent
+    if not folder.is_dir():
         raise SettingsError(f"the folder of {path} does not exist; make it, or write elsewhere")
+    if path.is_dir():
+        raise SettingsError(f"{path} is a folder; give the name of a file")
+    if not os.access(folder, os.W_OK):
+        raise SettingsError(f"the folder of {path} cannot be written to; write elsewhere")
+
+
+def make_folder(path: Path, option: str) -> None:
+    """Makes the folder `path`, which `option` names.
+
+    Raises:
+        SettingsError: it is a file, or cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SettingsError(f"cannot make the folder {path}: {error.strerror}; choose another {option}") from error

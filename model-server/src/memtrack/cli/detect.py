@@ -20,8 +20,8 @@ from memtrack.detections_io import suffix, write_detections
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.libraries import engine_threads, library_versions
-from memtrack.models import CRITERIA, Model, load_model
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.models import CRITERIA, ENGINES, Model, load_model
+from memtrack.pipeline import DetectionSettings, caveats, detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts, Standing
 from memtrack.video import open_film
 from memtrack.video.source import decode, grey
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--cell-length-px", type=positive, help="length of a cell in this film, pixels")
     add("--pixel-size-um", type=positive, help="edge of a pixel, um (default: what the film says)")
     add("--frame-interval-s", type=positive, help="time between frames, s (default: what the film says)")
-    add("--engine", default=default.engine, help="auto, openvino or torch (default: %(default)s)")
+    add("--engine", choices=ENGINES, default=default.engine, help="what runs the net (default: %(default)s)")
     add("--threads", type=int, default=engine_threads(), help="threads of the net (default here: %(default)s)")
     add("--quiet", action="store_true", help="no progress")
 
@@ -56,7 +56,8 @@ def run(options: argparse.Namespace) -> int:
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
     with open_film(options.film, Calibration(options.pixel_size_um, options.frame_interval_s)) as film:
-        _say(film.notes)
+        notes = [*film.notes, *caveats(film, model, settings)]
+        _say(notes)
         line = _ProgressLine(film.frame_count, quiet=options.quiet)
         film_sha256 = _sha256(film, line)
         learned: list[str] = []
@@ -64,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
         line.end()
         _say(learned)
         counts = sum((found.counts for found in frames), FilterCounts())
-        provenance = _provenance(options.film, film, (*film.notes, *learned), film_sha256, model, settings, counts)
+        provenance = _provenance(options.film, film, [*notes, *learned], film_sha256, model, settings, counts)
     for file in write_detections(options.out, frames, provenance):
         print(file)
     print(summary(counts, model, settings), file=sys.stderr)
@@ -78,17 +79,13 @@ def _say(notes: Iterable[str]) -> None:
 
 def summary(counts: FilterCounts, model: Model, settings: DetectionSettings) -> str:
     """What was found, never a bare zero."""
+    lowest = settings.pruner(model.card).thresholds
     return (
         f"{counts.kept} detections kept; of {counts.candidates} candidates above {model.card.decoder.floor:g}, "
         f"{counts.too_large} were too large, {counts.near_misses} below the thresholds "
-        f"{', '.join(f'{t:g}' for t in thresholds_of(model, settings))}, {counts.overlapping} overlapped a better one, "
+        f"{', '.join(f'{t:g}' for t in lowest)}, {counts.overlapping} overlapped a better one, "
         f"{counts.outside_region} lay outside the region."
     )
-
-
-def thresholds_of(model: Model, settings: DetectionSettings) -> tuple[float, ...]:
-    """The thresholds in force."""
-    return settings.thresholds or model.card.thresholds[settings.criterion]
 
 
 def _settings(options: argparse.Namespace) -> DetectionSettings:
@@ -128,9 +125,10 @@ def _sha256(film: Film, line: _ProgressLine) -> str:
 
 
 def _provenance(
-    path: Path, film: Film, notes: tuple[str, ...], film_sha256: str, model: Model, settings: DetectionSettings,
+    path: Path, film: Film, notes: list[str], film_sha256: str, model: Model, settings: DetectionSettings,
     counts: FilterCounts,
 ) -> dict[str, Any]:  # fmt: skip
+    lowest = settings.pruner(model.card).thresholds
     shown = {name: getattr(settings, name) for name in settings.__slots__ if name != "region"}
     return {
         "memtrack": __version__,
@@ -146,7 +144,7 @@ def _provenance(
         },
         "model": {"name": model.card.name, "version": model.card.version, "sha256": model.digest},
         "settings": {**shown, "region": settings.region is not None},
-        "thresholds": dict(zip((level.name.lower() for level in Level), thresholds_of(model, settings), strict=True)),
+        "thresholds": {level.name.lower(): score for level, score in zip(Level, lowest, strict=True)},
         "counts": {name: getattr(counts, name) for name in counts.__slots__},
     }
 

@@ -7,8 +7,8 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from memtrack.cli.arguments import positive, share, thresholds
-from memtrack.errors import InvalidInputError, SettingsError
+from memtrack.cli.arguments import make_folder, positive, share, thresholds
+from memtrack.errors import SettingsError
 from memtrack.evaluation import baselines
 from memtrack.evaluation.curves import CurvePoint, precision_recall_curve
 from memtrack.evaluation.evaluate import FilmData, Options, evaluate
@@ -16,14 +16,17 @@ from memtrack.evaluation.film_list import COLUMNS, FilmFiles, read_list
 from memtrack.evaluation.matching import Criterion
 from memtrack.evaluation.page import as_page
 from memtrack.evaluation.report import Report, as_json, as_text
-from memtrack.evaluation.stages import PrunerSettings, curve_sets
+from memtrack.evaluation.stages import curve_sets
 from memtrack.files import write_text
 from memtrack.film import Calibration
+from memtrack.pipeline import DetectionSettings
+from memtrack.pruning import PrunerSettings
 from memtrack.video.opening import open_film
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Describe the options of `memtrack evaluate`."""
+    """Describe the options of `memtrack evaluate`; the pruner's defaults are those of detection."""
+    default = DetectionSettings()
     parser.add_argument("--truth", type=Path, help="the truth: CSV, .mdf of MTrackJ, .xml of TrackMate, or MOT .txt")
     parser.add_argument("--tracks", type=Path, help="the tracks to judge, in any of these formats")
     parser.add_argument(
@@ -67,8 +70,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="LOW,MEDIUM,HIGH",
         help="score thresholds of the levels: follows the candidates through the pruner's filters",
     )
-    parser.add_argument("--max-size-px", type=positive, default=35.0, help="pruner: greatest edge of a box")
-    parser.add_argument("--nms-iou", type=share, default=0.7, help="pruner: greatest overlap of two boxes")
+    parser.add_argument(
+        "--max-size-px",
+        type=positive,
+        default=default.max_size_px,
+        help="pruner: greatest edge of a box (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--nms-iou",
+        type=share,
+        default=default.nms_iou,
+        help="pruner: greatest overlap of two boxes (default: %(default)s)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -94,10 +107,7 @@ def run(args: argparse.Namespace) -> int:
         options,
         _baselines(args.baselines, files, films, options),
     )
-    try:
-        args.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidInputError(f"cannot make the folder {args.out}: {error.strerror}; choose another --out") from error
+    make_folder(args.out, "--out")
     write_text(args.out / "evaluation.json", as_json(report))
     write_text(args.out / "evaluation.html", as_page(report))
     print(as_text(report))

@@ -10,7 +10,7 @@ import numpy as np
 import tifffile
 
 from memtrack.cli.arguments import check_folder_of
-from memtrack.errors import SettingsError
+from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.formats.trackmate_writer import FilmFile
 from memtrack.simulation.families import FAMILIES, draw_recipe
 from memtrack.simulation.film import SimulatedFilm, simulate
@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> int:
     """Writes OUTPUT.tif, and its truth as .csv, .xml (TrackMate) and .mdf (MTrackJ) of the same name.
 
     Raises:
-        SettingsError: a size is out of range, or the folder is missing.
+        SettingsError: a size is out of range, or nothing can be written there.
     """
     for name, low, high in (("frames", 1, 20000), ("width", 32, 8192), ("height", 32, 8192), ("seed", 0, 2**31)):
         if not low <= getattr(args, name) <= high:
@@ -49,17 +49,27 @@ def run(args: argparse.Namespace) -> int:
 
 
 def write(made: SimulatedFilm, path: Path) -> None:
-    """Writes the film as an ImageJ TIFF with its calibration, and the truth beside it."""
+    """Writes the film as an ImageJ TIFF with its calibration, and the truth beside it.
+
+    Raises:
+        InvalidInputError: a file cannot be written.
+    """
     recipe = made.recipe
     partial = path.with_name(path.name + ".part")
-    tifffile.imwrite(
-        partial,
-        made.film.frames,
-        imagej=True,
-        resolution=(1 / recipe.pixel_size_um, 1 / recipe.pixel_size_um),
-        metadata={"axes": "TYX", "unit": "micron", "finterval": recipe.frame_interval_seconds, "tunit": "sec"},
-    )
-    partial.replace(path)
+    try:
+        tifffile.imwrite(
+            partial,
+            made.film.frames,
+            imagej=True,
+            resolution=(1 / recipe.pixel_size_um, 1 / recipe.pixel_size_um),
+            metadata={"axes": "TYX", "unit": "micron", "finterval": recipe.frame_interval_seconds, "tunit": "sec"},
+        )
+        partial.replace(path)
+    except OSError as error:
+        raise InvalidInputError(f"cannot write {path}: {error.strerror}; check the folder and its rights") from error
+    finally:
+        if partial.is_file():
+            partial.unlink()
     image = FilmFile(path.resolve(), recipe.width, recipe.height, recipe.frames)
     write_tracks(path.with_suffix(".csv"), made.truth)
     write_tracks(path.with_suffix(".mdf"), made.truth)

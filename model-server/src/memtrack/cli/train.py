@@ -7,8 +7,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from memtrack.cli.arguments import count
-from memtrack.errors import EngineUnavailableError
+from memtrack.cli.arguments import count, make_folder
+from memtrack.errors import EngineUnavailableError, SettingsError
 from memtrack.models import user_models
 
 
@@ -28,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
     """Trains; progress goes to standard error, the model's folder to standard output.
 
     Raises:
-        SettingsError: the recipe cannot be used.
+        SettingsError: the recipe, the device or a folder cannot be used.
         EngineUnavailableError: PyTorch or nncf is not installed.
     """
     try:
@@ -42,13 +42,20 @@ def run(args: argparse.Namespace) -> int:
     import cv2
 
     from memtrack.training.config import read_config
+    from memtrack.training.optimise import Workspace
     from memtrack.training.recipe import train
-    from memtrack.training.train import Workspace
 
     config = read_config(args.recipe)
+    try:
+        torch.empty(1, device=args.device)
+    except (RuntimeError, AssertionError) as error:  # of what is no device, and of what PyTorch was built without
+        reason = str(error).partition("\n")[0]
+        raise SettingsError(f"--device is {args.device!r}, which PyTorch cannot use here: {reason}") from error
     torch.set_num_threads(args.threads)
     cv2.setNumThreads(args.threads)
     workspace = Workspace(args.workspace or args.recipe.with_suffix(".work"))
+    make_folder(workspace.folder, "--workspace")
+    make_folder(args.models or user_models(), "--models")
 
     model = train(
         config, workspace, args.models, base=args.recipe.parent, device=args.device, workers=args.workers, report=_say

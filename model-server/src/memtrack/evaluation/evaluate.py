@@ -14,10 +14,11 @@ from jaxtyping import Float, Int8
 from memtrack.detections import FrameDetections
 from memtrack.evaluation.matching import Comparison, Counts, Criterion, compare
 from memtrack.evaluation.particle_challenge import ChallengeSums, challenge_sums
-from memtrack.evaluation.stages import PrunerSettings, candidate_steps, pruning_steps
+from memtrack.evaluation.stages import candidate_steps, pruning_steps
 from memtrack.evaluation.tracking_measures import TrackingSums, tracking_sums
 from memtrack.film import Calibration
 from memtrack.motility import SPEED_LAG_SECONDS, frames_in, lag_speed, mean_speed, track_motility
+from memtrack.pruning import PrunerSettings
 from memtrack.tracks import Motility, TrackTable
 
 
@@ -145,7 +146,10 @@ def _sum(first: Any, second: Any) -> Any:
 
 
 def evaluate(film: FilmData, options: Options) -> Evaluation:
-    """Compare what was found in one film with its truth."""
+    """Compare what was found in one film with its truth; both in pixels of the film and frames from 0.
+
+    Without tracks only the detector's steps are counted; without candidates only the tracks.
+    """
     steps = {
         name: compare(film.truth, found, options.criterion).counts for name, found in _detection_steps(film, options)
     }

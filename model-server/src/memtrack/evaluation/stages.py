@@ -7,30 +7,13 @@ Each level, pooled, size, score, NMS; the tracker and the length filter follow i
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
 from memtrack.detections import Detections, FrameDetections, Level
-from memtrack.errors import SettingsError
-from memtrack.pruning import prune
+from memtrack.pruning import PrunerSettings, prune
 from memtrack.tracks import UNLINKED, TrackTable
-
-
-@dataclass(frozen=True, slots=True)
-class PrunerSettings:
-    """Settings of the False Positive Pruner: a threshold a level, greatest edge of a box, greatest overlap."""
-
-    thresholds: tuple[float, ...]
-    max_size_px: float = 35.0
-    nms_iou: float = 0.7
-
-    def __post_init__(self) -> None:
-        if len(self.thresholds) != len(Level) or not all(0 <= value <= 1 for value in self.thresholds):
-            raise SettingsError(
-                f"thresholds are {', '.join(map(str, self.thresholds))}; give {len(Level)} numbers from 0 to 1, "
-                "for low, medium and high motility"
-            )
 
 
 def as_table(frames: Sequence[FrameDetections]) -> TrackTable:
@@ -59,17 +42,19 @@ def curve_sets(frames: Sequence[FrameDetections], max_size_px: float, nms_iou: f
 
     A box is suppressed only by better scored ones, so a threshold leaves the same whether it comes before or after.
     """
-    return {name: as_table(_pruned(of_level, _ALL, max_size_px, nms_iou)) for name, of_level in _levels(frames)}
+    filters = PrunerSettings(_ALL, max_size_px, nms_iou)
+    return {name: as_table(_pruned(of_level, filters)) for name, of_level in _levels(frames)}
 
 
 def pruning_steps(frames: Sequence[FrameDetections], settings: PrunerSettings) -> Iterator[tuple[str, TrackTable]]:
     """What is left after each filter of the pruner, by the name of the step."""
-    for name, thresholds, overlap in (
-        ("size", _ALL, 1.0),
-        ("score", settings.thresholds, 1.0),
-        ("NMS", settings.thresholds, settings.nms_iou),
-    ):
-        yield name, as_table(_pruned(frames, thresholds, settings.max_size_px, overlap))
+    steps = {
+        "size": replace(settings, thresholds=_ALL, nms_iou=1.0),
+        "score": replace(settings, nms_iou=1.0),
+        "NMS": settings,
+    }
+    for name, filters in steps.items():
+        yield name, as_table(_pruned(frames, filters))
 
 
 _ALL = (0.0,) * len(Level)
@@ -82,12 +67,5 @@ def _levels(frames: Sequence[FrameDetections]) -> Iterator[tuple[str, Sequence[F
     yield "pooled", frames
 
 
-def _pruned(
-    frames: Sequence[FrameDetections], thresholds: tuple[float, ...], max_size_px: float, nms_iou: float
-) -> list[FrameDetections]:
-    return [
-        FrameDetections(
-            f.frame, prune(f.detections, thresholds=thresholds, max_size_px=max_size_px, nms_iou=nms_iou)[0]
-        )
-        for f in frames
-    ]
+def _pruned(frames: Sequence[FrameDetections], filters: PrunerSettings) -> list[FrameDetections]:
+    return [FrameDetections(f.frame, prune(f.detections, filters)[0]) for f in frames]

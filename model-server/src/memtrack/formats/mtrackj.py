@@ -5,24 +5,31 @@
 header ["Displaying" ...] ["Offset" ...] ["Reference" ...]
 {"Assembly" n [RRGGBB] {"Cluster" n [RRGGBB] {"Track" n [RRGGBB [visible]] {"Point" n x y z t c}}}} [trailer]
 ```
-x and y are in pixels; z, t and c count from 1, t may be written as a decimal number. Of several assemblies the last
-counts, of several points of a track at one time the last counts. Track numbers start anew in each cluster.
+x and y are in pixels; z, t and c count from 1, t is rounded to a whole number. Of several assemblies the last counts,
+of several points of a track at one time the last counts. Track numbers start anew in each cluster. The format has no
+place for a mark on a point, so MEMTrack writes an interpolated one with a time a quarter of a frame too late.
 """
 
 from __future__ import annotations
 
-import colorsys
 import math
+from collections import defaultdict
 from pathlib import Path
 
 from memtrack.files import read_text, write_text
 from memtrack.film import Calibration
-from memtrack.tracks import TrackTable
+from memtrack.tracks import Motility, TrackTable
 
-_DISPLAYING = (
-    "Displaying true true true 1 1 0 4 100 5 0 0 0 2 0 12 0 false false false false"
-    # reference, active and finished tracks; visibility, colouring by track, colours; opacity, sizes, shapes, font; rest
-)
+_INTERPOLATED = 0.25
+"""Added to the time of an interpolated point, frames."""
+_COLOURS = {
+    Motility.NONE: "999999",
+    Motility.LOW: "56B4E9",
+    Motility.MEDIUM: "E69F00",
+    Motility.HIGH: "D55E00",
+    Motility.UNKNOWN: "009E73",
+}
+"""Of a cluster for each class, in this order; people with any colour vision can tell them apart (Okabe and Ito)."""
 
 
 def read(path: Path, calibration: Calibration) -> TrackTable:
@@ -36,7 +43,7 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
     header = lines[0].split() if lines else []
     if header[:1] != ["MTrackJ"] or header[2:] != ["Data", "File"]:
         raise ValueError("the first line is not 'MTrackJ <version> Data File'")
-    points: dict[tuple[int, int], tuple[float, float]] = {}
+    points: dict[tuple[int, int], tuple[float, float, bool]] = {}
     track = 0
     for number, line in enumerate(lines[1:], start=2):
         word, *values = line.split() or [""]
@@ -50,12 +57,12 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
                 raise ValueError(f"line {number} has a point before any track")
             try:
                 x, y, t = (float(values[i]) for i in (1, 2, 4))
-                frame = round(t) - 1
+                frame = math.floor(t + 0.5) - 1
             except (ValueError, IndexError, OverflowError):
                 raise ValueError(f"line {number} is {line!r}, expected 'Point n x y z t c'") from None
             if not (math.isfinite(x) and math.isfinite(y)) or frame < 0:
                 raise ValueError(f"line {number} is {line!r}: x and y must be finite, t at least 1")
-            points[track, frame] = (x, y)
+            points[track, frame] = (x, y, t - (frame + 1) == _INTERPOLATED)
         elif line.startswith("End of MTrackJ"):
             break
         elif word not in ("", "Displaying", "Offset", "Reference", "Origin", "Cluster"):
@@ -63,26 +70,30 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
     return TrackTable.of(
         [frame for _, frame in points],
         [track for track, _ in points],
-        [x for x, _ in points.values()],
-        [y for _, y in points.values()],
+        [x for x, _, _ in points.values()],
+        [y for _, y, _ in points.values()],
+        interpolated=[interpolated for _, _, interpolated in points.values()],
     )
 
 
 def write(path: Path, table: TrackTable) -> None:
-    """Write tracks as version 1.5.1, one cluster, a colour a track; detections without a track are left out.
+    """Write tracks as version 1.5.1, as the plug-in does: a cluster and a colour for each class of motility.
+
+    A track's number is its id, counted from 1; detections without a track are left out.
 
     Raises:
         InvalidInputError: the file cannot be written.
     """
-    lines = ["MTrackJ 1.5.1 Data File", _DISPLAYING, "Assembly 1 FF0000", "Cluster 1 FF0000"]
-    for number, track in enumerate(table.tracks(), start=1):
-        lines.append(f"Track {number} {_colour(number)} true")
-        for i in range(len(track)):
-            lines.append(f"Point {i + 1} {track.x[i]:.4f} {track.y[i]:.4f} 1.0 {track.frames[i] + 1}.0 1.0")
+    clusters: dict[Motility, list[TrackTable]] = defaultdict(list)
+    for track in table.tracks():
+        clusters[Motility(int(track.motility.max()))].append(track)
+    lines = ["MTrackJ 1.5.1 Data File", "Assembly 1 FF0000"]
+    for number, (motility, colour) in enumerate(_COLOURS.items(), start=1):
+        if motility in clusters:
+            lines.append(f"Cluster {number} {colour}")
+        for track in clusters[motility]:
+            lines.append(f"Track {track.ids[0] + 1} {colour} true")
+            for i in range(len(track)):
+                time = track.frames[i] + 1 + _INTERPOLATED * track.interpolated[i]
+                lines.append(f"Point {i + 1} {track.x[i]:.4f} {track.y[i]:.4f} 1.0 {float(time)} 1.0")
     write_text(path, "\r\n".join([*lines, "End of MTrackJ Data File", ""]))
-
-
-def _colour(number: int) -> str:
-    """A colour that differs from those of the tracks before (steps of the golden angle round the hue circle)."""
-    rgb = colorsys.hsv_to_rgb(number * 0.618034 % 1.0, 0.8, 1.0)
-    return "".join(f"{round(255 * channel):02X}" for channel in rgb)

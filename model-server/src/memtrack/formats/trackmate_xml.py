@@ -21,11 +21,9 @@ from defusedxml.ElementTree import parse as parse_xml
 from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.film import Calibration
 from memtrack.tracks import UNLINKED, Motility, TrackTable
+from memtrack.units import micrometres, seconds
 
 _PIXEL_UNITS = ("pixel", "pixels", "px")
-_MICROMETRES = {"micrometer": 1.0, "micrometre": 1.0, "micron": 1.0, "microns": 1.0, "um": 1.0, "µm": 1.0, "μm": 1.0}
-_MICROMETRES |= {"nm": 1e-3, "nanometer": 1e-3, "mm": 1e3, "millimeter": 1e3}
-_SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,18 +73,20 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
     else:
         unit_size, interval = math.nan, math.nan
     scale, found = _scale(model.get("spatialunits", "pixel"), unit_size, calibration)
-    seconds = _SECONDS.get(model.get("timeunits", ""), math.nan) * interval
+    interval *= seconds(model.get("timeunits", "")) or 0
     spots = {}
     for spot in model.iterfind("AllSpots/SpotsInFrame/Spot"):
         if spot.get("VISIBILITY", "1") != "0":
+            interpolated = _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0
             spots[_whole(spot, "ID")] = _Spot(
                 _whole(spot, "FRAME"),
                 _number(spot, "POSITION_X") / scale,
                 _number(spot, "POSITION_Y") / scale,
                 _number(spot, "MEMTRACK_BOX_WIDTH", math.nan) / scale,
                 _number(spot, "MEMTRACK_BOX_HEIGHT", math.nan) / scale,
-                _number(spot, "QUALITY", math.nan),
-                _number(spot, "MEMTRACK_INTERPOLATED", 0.0) == 1.0,
+                # An interpolated spot has the quality 0, which TrackMate wants of each, and no score.
+                _number(spot, "MEMTRACK_SCORE", math.nan if interpolated else _number(spot, "QUALITY", math.nan)),
+                interpolated,
             )
     kept = {track.get("TRACK_ID") for track in model.iterfind("FilteredTracks/TrackID")}
     edges: list[tuple[int, int]] = []
@@ -112,7 +112,7 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
         scores=[spot.quality for spot in rows],
         interpolated=[spot.interpolated for spot in rows],
         motility=[motility_of.get(spot_id, Motility.UNKNOWN) for spot_id in spots],
-        calibration=Calibration(found, seconds if seconds > 0 else None),
+        calibration=Calibration(found, interval if interval > 0 else None),
     )
 
 
@@ -137,21 +137,21 @@ def _unbranched(spots: dict[int, _Spot], edges: list[tuple[int, int]]) -> dict[i
 
 def _read_export(root: Element, calibration: Calibration) -> TrackTable:
     scale, found = _scale(root.get("spaceUnits", "pixel"), math.nan, calibration)
-    seconds = _SECONDS.get(root.get("timeUnits", ""), math.nan) * _number(root, "frameInterval", math.nan)
+    interval = _number(root, "frameInterval", math.nan) * (seconds(root.get("timeUnits", "")) or 0)
     points = [
         (_whole(point, "t"), track, _number(point, "x") / scale, _number(point, "y") / scale)
         for track, particle in enumerate(root.iterfind("particle"))
         for point in particle.iterfind("detection")
     ]
     frames, ids, x, y = zip(*points, strict=True) if points else ((), (), (), ())
-    return TrackTable.of(frames, ids, x, y, calibration=Calibration(found, seconds if seconds > 0 else None))
+    return TrackTable.of(frames, ids, x, y, calibration=Calibration(found, interval if interval > 0 else None))
 
 
 def _scale(unit: str, unit_size: float, calibration: Calibration) -> tuple[float, float | None]:
     """Units a pixel, and the pixel's size in micrometres if it is known."""
-    if unit.lower() in _PIXEL_UNITS:
+    if unit.strip().lower() in _PIXEL_UNITS:
         return (unit_size if unit_size > 0 else 1.0), None
-    in_micrometres = _MICROMETRES.get(unit.lower())
+    in_micrometres = micrometres(unit)
     if unit_size > 0:
         return unit_size, None if in_micrometres is None else unit_size * in_micrometres
     if calibration.pixel_size_um is not None and in_micrometres is not None:

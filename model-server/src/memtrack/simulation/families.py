@@ -31,7 +31,7 @@ def draw_recipe(family: str, rng: np.random.Generator, *, width: int, height: in
 
 
 def collagen(recipe: Recipe, rng: np.random.Generator) -> Recipe:
-    """Gel with grain as large as the bacteria; 4 to 40 bacteria in 660 x 492 pixels, many of them resting."""
+    """Gel with grain as large as the bacteria; 6 to 60 bacteria for 660 x 492 pixels, rim included; many rest."""
     scale = _scale(rng, 0.75, 1.35)
     scene = str(rng.choice(["mottled", "mottled", "cloudy", "fibrous", "rings"]))
     texture = float(rng.uniform(5, 26))
@@ -55,7 +55,7 @@ def collagen(recipe: Recipe, rng: np.random.Generator) -> Recipe:
 
 
 def water(recipe: Recipe, rng: np.random.Generator) -> Recipe:
-    """Clear medium, faster swimmers, more of them (up to 60 in 660 x 492 pixels), often at a coarser pixel size."""
+    """Clear medium, faster swimmers, more of them (8 to 90, likewise), often at a coarser pixel size."""
     scale = _scale(rng, 0.5, 1.2)
     recipe = replace(
         _camera(_stage(recipe, rng), rng),
@@ -132,7 +132,7 @@ def _count(recipe: Recipe, per_reference_field: float, rng: np.random.Generator)
 
 
 def _stage(recipe: Recipe, rng: np.random.Generator) -> Recipe:
-    """Drift, jitter, flicker, wobble, restlessness and clutter; each is absent in about half of the films."""
+    """What stage, lamp, medium and shutter do; each is absent from 40 % of the films or more, but for the shading."""
 
     def sometimes(share: float, low: float, high: float) -> float:
         return float(np.exp(rng.uniform(np.log(low), np.log(high)))) if rng.random() < share else 0.0
@@ -201,12 +201,11 @@ def _populate(
         wide = max(1.8, width * s * float(rng.uniform(0.85, 1.15)))
         return Look(max(wide, length * s * own), wide, height, halo, ring * s * own, flip, relief, angle)
 
-    decoys = int(rng.poisson(rng.choice([0, 6, 20]) * recipe.width * recipe.height / REFERENCE_AREA * 2))
+    lookalikes = int(rng.poisson(rng.choice([0, 6, 20]) * recipe.width * recipe.height / REFERENCE_AREA * 2))
     chosen = tuple(gaits[k] for k in rng.choice(len(gaits), count, p=weights))
     return replace(
         recipe,
         gaits=chosen,
         looks=tuple(look() for _ in chosen),
-        decoys=decoys,
-        decoy_looks=tuple(look() for _ in range(decoys)),
+        decoy_looks=tuple(look() for _ in range(lookalikes)),
     )

@@ -19,7 +19,7 @@ class Recipe:
     reach of fibre movement. restless: slow change of the scene, as a share of it. clutter: moving blurred blobs, their
     contrast in grey levels and their flow in pixels a frame. passing: bodies of up to 100 px that cross the field,
     the contrast of their grain and their speed in pixels a frame. shutter: share of a frame's time the camera sees.
-    read_noise, shot_noise: sd in grey levels, the second at full scale. decoys: static rods that look like bacteria.
+    read_noise, shot_noise: sd in grey levels, the second at full scale. decoy_looks: of static rods like bacteria.
     jpeg: quality, 0 for none. caption: a clock and a scale bar are burnt in. video: the film was packed as MPEG-4 (8
     bits only). subtracted: its mean or median was subtracted from it.
     """
@@ -52,7 +52,6 @@ class Recipe:
     read_noise: float = 3.0
     shot_noise: float = 3.0
     noise_blur: float = 0.0
-    decoys: int = 6
     dust: float = 0.0
     jpeg: int = 0
     caption: bool = False

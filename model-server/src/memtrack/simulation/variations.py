@@ -53,7 +53,6 @@ def specks(recipe: Recipe, rng: np.random.Generator) -> Recipe:
         recipe,
         gaits=recipe.gaits[:few],
         looks=recipe.looks[:few],
-        decoys=len(decoys),
         decoy_looks=decoys,
         wobble=float(rng.uniform(0.1, 0.8)),
         read_noise=recipe.read_noise * quiet,
@@ -72,7 +71,7 @@ def captioned(recipe: Recipe, rng: np.random.Generator) -> Recipe:
 
 
 def passing(recipe: Recipe, rng: np.random.Generator) -> Recipe:
-    """One to four large bodies pass through the field, whose grain is at most as strong as the bacteria."""
+    """One to four large bodies pass through the field, whose grain is mostly weaker than the bacteria."""
     contrasts = [abs(look.contrast) for look in (*recipe.looks, *recipe.decoy_looks)]
     usual = float(np.median(contrasts)) if contrasts else 30.0
     return replace(

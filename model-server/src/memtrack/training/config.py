@@ -96,7 +96,9 @@ def read_config(path: Path) -> TrainingConfig:
     """
     try:
         values = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except OSError as error:
+        raise SettingsError(f"cannot read the training recipe {path}: {error.strerror}; check the path") from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SettingsError(f"the training recipe {path} cannot be read: {error}") from error
     tables = {"training": SimulatedSet, "validation": SimulatedSet, "annotated": Annotated}
     known = {"model", "loss", "optimisation", *tables}

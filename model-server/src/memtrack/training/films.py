@@ -17,7 +17,7 @@ from memtrack.errors import SettingsError
 from memtrack.film import Calibration
 from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.motion import FeatureSpec
-from memtrack.pipeline import scale_to
+from memtrack.pipeline import mended, scale_to
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
@@ -79,8 +79,8 @@ def annotated_samples(
 ) -> list[FilmSamples]:
     """Samples of a user's films; paths are relative to `base`, the recipe's folder.
 
-    A film whose bacteria are longer or shorter than `cell_length_px` is brought to that range. Bacteria without a
-    class get one from the motility of their track.
+    A film is mended and brought to the model's scale as in detection: one whose bacteria are longer or shorter than
+    `cell_length_px` is brought to that range. Bacteria without a class get one from the motility of their track.
 
     Raises:
         InvalidInputError: a film or its tracks cannot be read.
@@ -92,8 +92,9 @@ def annotated_samples(
         with open_film(base / entry.film, given) as film:
             truth = with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
             scale = scale_to(cell_length_px, film.calibration)
-            scaled = film if scale == 1 else ScaledFilm(film, scale)
-            across, down = factors_of(film, scaled)
+            whole = mended(film)
+            scaled = whole if scale == 1 else ScaledFilm(whole, scale)
+            across, down = factors_of(whole, scaled)
             truth = replace(truth, x=(truth.x + 0.5) * across - 0.5, y=(truth.y + 0.5) * down - 0.5)
             rng = np.random.default_rng([seed, number])
             made.append(extract(scaled, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))

@@ -22,8 +22,8 @@ from memtrack.training import figures, thresholds
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
 from memtrack.training.films import annotated_samples, simulated_samples
+from memtrack.training.optimise import Report, Workspace, architecture, new_net, optimise, read_checkpoint
 from memtrack.training.samples import FilmSamples
-from memtrack.training.train import Report, Workspace, architecture, new_net, optimise, read_checkpoint
 
 CALIBRATION_FRAMES = 64
 

@@ -20,11 +20,9 @@ from jaxtyping import Shaped
 
 from memtrack.errors import FilmError
 from memtrack.film import Calibration
+from memtrack.units import micrometres, seconds
 from memtrack.video.source import Source, notes_on, red_first
 
-_MICROMETRES = {"um": 1.0, "µm": 1.0, "μm": 1.0, "micron": 1.0, "microns": 1.0, "micrometer": 1.0, "nm": 1e-3,
-                "mm": 1e3, "cm": 1e4, "m": 1e6}  # fmt: skip
-_SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0, "h": 3600.0}
 _AXIS_WORDS = {"T": "time points", "Z": "slices", "C": "channels"}
 
 
@@ -192,12 +190,12 @@ def _calibration(file: tifffile.TiffFile) -> Calibration:
 
 
 def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> Calibration:
-    unit = str(tags.get("unit", "")).replace("\\u00B5", "µ").lower()
+    unit = micrometres(str(tags.get("unit", "")).replace("\\u00B5", "µ"))
     resolution = file.pages.first.tags.get("XResolution")
     size = None
-    if unit in _MICROMETRES and resolution is not None and resolution.value[0] > 0:
-        size = resolution.value[1] / resolution.value[0] * _MICROMETRES[unit]
-    interval = float(tags.get("finterval", 0) or 0) * _SECONDS.get(str(tags.get("tunit", "sec")).lower(), 0)
+    if unit is not None and resolution is not None and resolution.value[0] > 0:
+        size = resolution.value[1] / resolution.value[0] * unit
+    interval = float(tags.get("finterval", 0) or 0) * (seconds(str(tags.get("tunit", "sec"))) or 0)
     if interval <= 0 and float(tags.get("fps", 0) or 0) > 0:
         interval = 1 / float(tags["fps"])
     return Calibration(size, interval if interval > 0 else None)
@@ -216,13 +214,15 @@ def _ome_pixels(text: str) -> dict[str, str]:
 def _ome(text: str) -> Calibration:
     values = _ome_pixels(text)
     return Calibration(
-        _quantity(values, "PhysicalSizeX", "µm", _MICROMETRES), _quantity(values, "TimeIncrement", "s", _SECONDS)
+        _quantity(values, "PhysicalSizeX", "µm", micrometres), _quantity(values, "TimeIncrement", "s", seconds)
     )
 
 
-def _quantity(values: dict[str, str], name: str, default_unit: str, units: dict[str, float]) -> float | None:
+def _quantity(
+    values: dict[str, str], name: str, default_unit: str, factor: Callable[[str], float | None]
+) -> float | None:
     try:
-        value = float(values[name]) * units[values.get(f"{name}Unit", default_unit)]
+        value = float(values[name]) * (factor(values.get(f"{name}Unit", default_unit)) or 0)
     except (KeyError, ValueError):
         return None
     return value if 0 < value < math.inf else None

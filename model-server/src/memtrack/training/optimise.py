@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A training from its recipe to a registered model: films, optimisation, calibration, thresholds, card. Needs torch."""
+"""The optimisation of a net on samples, which can be interrupted and goes on from its checkpoint. Needs torch."""
 
 from __future__ import annotations
 
@@ -56,7 +56,11 @@ def architecture(model: ModelSettings) -> dict[str, object]:
 
 
 def new_net(model: ModelSettings) -> Net:
-    """The net to train: fresh, or with the weights of the model to start from."""
+    """The net to train: fresh, or with the weights of the model to start from.
+
+    Raises:
+        ModelNotFoundError: that model is missing, or has other features or another net.
+    """
     channels = len(SPECS[model.features].channels)
     net = build(architecture(model), channels)
     if model.start_from:
