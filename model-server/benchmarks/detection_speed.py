@@ -9,10 +9,13 @@ Processor time says what the parts cost on a busy machine, wall time what a user
 from __future__ import annotations
 
 import argparse
+import os
 import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is imported, as in memtrack.__main__
 
 import cv2
 import numpy as np

@@ -64,6 +64,7 @@ class Optimisation:
     checkpoint_every: int = 1000
     seed: int = 1
     bfloat16: bool = True
+    """Compute in bfloat16 where the processor or GPU is made for it; elsewhere in 32 bits."""
 
     def __post_init__(self) -> None:
         if self.crop % ALIGNMENT:
