@@ -117,16 +117,18 @@ def _order_statistics(
 ) -> tuple[Float32[np.ndarray, "h w"], Float32[np.ndarray, "h w"]]:
     """Median and half the 16-84 % range over the values that are not missing; 0 where there are none.
 
-    Sorts rows that lie together in memory: many times quicker than np.median along the first axis.
+    Sorts rows that lie together in memory: many times quicker than np.median along the first axis. Integers of 32 bits,
+    which numpy sorts four times as fast as those of 16 where the processor has no AVX-512.
     """
     n, h, w = stack.shape
+    sorted_as = np.uint32 if stack.dtype == np.uint16 else stack.dtype
     missing = _missing(stack.dtype)
     middle, width = np.zeros(h * w, np.float32), np.zeros(h * w, np.float32)
     flat = stack.reshape(n, h * w)
     step = 1 << 15
 
     def part(a: int) -> None:
-        values = np.sort(np.ascontiguousarray(flat[:, a : a + step].T), axis=1)
+        values = np.sort(np.ascontiguousarray(flat[:, a : a + step].T, sorted_as), axis=1)
         size = (values != missing).sum(axis=1) if values[:, -1].max() == missing else np.full(len(values), n)
         at = np.arange(len(values))
 
@@ -135,7 +137,8 @@ def _order_statistics(
             lower = place.astype(np.int64)
             upper = np.minimum(lower + 1, np.maximum(size - 1, 0))
             share = (place - lower).astype(np.float32)
-            return np.where(size > 0, values[at, lower] * (1 - share) + values[at, upper] * share, 0)
+            below, above = (values[at, k].astype(np.float32) for k in (lower, upper))
+            return np.where(size > 0, below * (1 - share) + above * share, 0)
 
         middle[a : a + step] = quantile(0.5)
         width[a : a + step] = (quantile(0.8413) - quantile(0.1587)) / 2
