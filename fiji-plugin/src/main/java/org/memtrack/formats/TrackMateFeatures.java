@@ -29,6 +29,9 @@ final class TrackMateFeatures {
         declare(xml, "RADIUS", "Radius", "R", "LENGTH", false);
         declare(xml, "VISIBILITY", "Visibility", "Visibility", "NONE", true);
         for (SpotFeature feature : SpotFeature.values()) {
+            if (feature.isDrift() && tracked.drift().isNone()) {
+                continue;
+            }
             declare(
                     xml,
                     feature.key(),

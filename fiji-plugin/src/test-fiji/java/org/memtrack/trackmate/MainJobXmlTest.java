@@ -57,7 +57,7 @@ class MainJobXmlTest {
         TrackingResult result = TrackingRun.run(new ImageFilm(image, options), settings, Progress.NONE);
         List<Track> tracks = result.tracked().tracks();
         Path xml = folder.resolve("tracks.xml");
-        TrackMateXml.write(xml, result.tracked(), result.frames());
+        TrackMateXml.write(xml, result.tracked());
 
         TmXmlReader reader = new TmXmlReader(xml.toFile());
         Model model = reader.getModel();

@@ -18,6 +18,7 @@ import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.Level;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.FilmInfo;
@@ -40,7 +41,8 @@ class MotilityAnalysisTest {
     }
 
     private static TrackMotility analyse(FilmInfo film, Track track) {
-        return MotilityAnalysis.analyse(film, List.of(track), List.of()).get(0);
+        return MotilityAnalysis.analyse(film, List.of(track), new StageDrift(List.of()))
+                .get(0);
     }
 
     @Test
@@ -98,8 +100,8 @@ class MotilityAnalysisTest {
             drift.add(new FrameDetections(frame, List.of(), 0.5 * frame, -0.25 * frame));
         }
 
-        TrackMotility motility =
-                MotilityAnalysis.analyse(FILM, List.of(carried), drift).get(0);
+        TrackMotility motility = MotilityAnalysis.analyse(FILM, List.of(carried), new StageDrift(drift))
+                .get(0);
 
         assertThat(motility.meanSpeedPixelsPerFrame()).isCloseTo(0, within(1e-9));
         assertThat(motility.motilityClass()).contains(MotilityClass.NONE);
