@@ -35,7 +35,9 @@ public final class MotilityAnalysis {
     }
 
     private static TrackMotility analyse(FilmInfo film, int trackId, Trajectory trajectory) {
-        double speed = trajectory.frameSpan() == 0 ? 0 : trajectory.length() / trajectory.frameSpan();
+        OptionalDouble speed = trajectory.frameSpan() == 0
+                ? OptionalDouble.empty()
+                : OptionalDouble.of(trajectory.length() / trajectory.frameSpan());
         int lag = film.frameIntervalSeconds().isPresent()
                 ? framesIn(SPEED_LAG_SECONDS, film.frameIntervalSeconds().getAsDouble())
                 : SPEED_LAG_FRAMES;
@@ -51,7 +53,7 @@ public final class MotilityAnalysis {
                 speed,
                 lag,
                 lagSpeed,
-                calibrated(film, OptionalDouble.of(speed)),
+                calibrated(film, speed),
                 calibrated(film, lagSpeed),
                 diffusivity,
                 diffusivity.stream().mapToObj(MotilityClass::of).findFirst());

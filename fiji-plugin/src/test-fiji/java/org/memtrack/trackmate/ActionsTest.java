@@ -15,6 +15,7 @@ import ij.ImagePlus;
 import ij.ImageStack;
 import ij.VirtualStack;
 import ij.gui.Plot;
+import ij.measure.Calibration;
 import ij.measure.ResultsTable;
 import ij.process.ImageProcessor;
 import java.awt.event.KeyEvent;
@@ -82,6 +83,20 @@ class ActionsTest {
         Plot classes = MotilityAction.classes(ModelTracks.of(tracked()));
         assertThat(classes.getLabel('x')).isEqualTo("{none,low,medium,high}");
         assertThat(classes.getPlotObjectStyle(0)).contains("Separated Bars");
+    }
+
+    @Test
+    void withoutCalibrationSpeedsOverTheLagArePixelsAFrame() {
+        ImagePlus film = Films.twoSwimmers(20);
+        film.setCalibration(new Calibration());
+        TrackMate trackmate = TrackerInTrackMateTest.logAndSort(film, 4, 20, 10);
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        ModelTracks tracks = ModelTracks.of(trackmate);
+        ResultsTable table = MotilityAction.table(tracks);
+        assertThat(table.getValue("Lag speed (px/frame)", 0)).isCloseTo(2, within(0.05));
+        assertThat(table.getValue("Speed (um/s)", 0)).isNaN();
+        assertThat(MotilityAction.speeds(tracks).getLabel('x')).isEqualTo("speed over 6 frames (px/frame)");
+        assertThat(tracks.notes()).singleElement().asString().contains("set what is missing in Image > Properties");
     }
 
     @Test

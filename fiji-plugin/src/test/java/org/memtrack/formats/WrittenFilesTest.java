@@ -139,6 +139,19 @@ class WrittenFilesTest {
     }
 
     @Test
+    void aSpeedThatWasNotMeasuredIsAnEmptyCell() throws IOException {
+        Detection detection = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
+        Track track = new Track(0, List.of(new TrackPoint(3, detection.box(), detection)));
+        FilmInfo film =
+                new FilmInfo("film", Optional.empty(), 100, 80, 6, OptionalDouble.of(0.25), OptionalDouble.of(0.5));
+        Path file = folder.resolve("motility.csv");
+
+        MotilityCsv.write(file, TrackedFilm.of(film, List.of(track), List.of()));
+
+        assertThat(Files.readAllLines(file)).last().isEqualTo("0,3,3,1,0,,,1,,,,");
+    }
+
+    @Test
     void trackMateXmlHasTheDriftOfTheStageOnEverySpot() throws IOException {
         Detection before = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
         Detection after = new Detection(Box.around(71, 30, 10, 12), 0.9, Level.LOW);
