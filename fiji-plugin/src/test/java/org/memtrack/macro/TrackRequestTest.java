@@ -186,6 +186,9 @@ class TrackRequestTest {
                     output=o channel=0            | counted from 1
                     output=o first_frame=9 last_frame=3 | 9 to 3
                     output=o model=../secret      | name
+                    output=o cell_length=0.9      | cell length must lie in 1 to 200 pixels, not 0.9
+                    output=o cell_length=201      | cell length must lie in 1 to 200 pixels, not 201.0
+                    output=o cell_length=NaN      | not NaN
                     """)
     void aWrongValueIsOneSentenceWithTheValue(String line, String expected) {
         assertThatThrownBy(() -> of(line))
