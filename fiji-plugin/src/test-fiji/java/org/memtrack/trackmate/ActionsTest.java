@@ -196,8 +196,8 @@ class ActionsTest {
         List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"), Progress.NONE);
         assertThat(lines)
                 .contains(
-                        "Precision 1.000, recall 1.000, F1 1.000.",
-                        "The truth has 2 tracks. Of the 2 compared with it, 0 are false.");
+                        "Boxes, frame by frame: precision 1.000, recall 1.000, F1 1.000; 1 is best.",
+                        "Tracks in the truth: 2. Compared with it: 2, of which 0 false, with fewer than half of their points right.");
         assertThat(folder.resolve("out/evaluation.html")).exists();
         assertThat(Files.readString(folder.resolve("out/evaluation.json"))).contains("\"f1\": 1.0");
     }
