@@ -16,8 +16,9 @@ import org.memtrack.video.RegionMask;
  * @param nmsIou of two boxes whose intersection over union exceeds this, in [0, 1], the weaker is dropped; null for 0.7, as
  *     in the paper
  * @param stabilise whether to measure and undo the drift of the stage before the temporal median
- * @param cellLengthPx length of a cell as it looks in this film, in pixels; the film is scaled by it, whatever its pixel
- *     size; null to go by the pixel size, at which cells are taken to be 2 um long, or without one not to scale
+ * @param cellLengthPx length of a cell as it looks in this film, in pixels, from {@value #LEAST_CELL_LENGTH_PX} to
+ *     {@value #GREATEST_CELL_LENGTH_PX}; the film is scaled by it, whatever its pixel size; null to go by the pixel size, at
+ *     which cells are taken to be 2 um long, or without one not to scale
  * @param region where to report detections; null for everywhere
  */
 public record DetectionSettings(
@@ -31,6 +32,12 @@ public record DetectionSettings(
         @Nullable Double cellLengthPx,
         @Nullable RegionMask region) {
 
+    /** What the server takes for the length of a cell, at least. */
+    public static final int LEAST_CELL_LENGTH_PX = 1;
+
+    /** What the server takes for the length of a cell, at most. */
+    public static final int GREATEST_CELL_LENGTH_PX = 200;
+
     private static final Pattern NAME = Pattern.compile("[a-z0-9_.-]{0,64}");
 
     /** The default model over the whole film, at maximum F1: false positives are dropped with their tracks. */
@@ -42,8 +49,14 @@ public record DetectionSettings(
             throw new IllegalArgumentException(
                     "A model's name has 1 to 64 of a-z, 0-9, '_', '.' and '-', not \"%s\"".formatted(model));
         }
-        checkPositive("greatest size", maxSizePx);
-        checkPositive("cell length", cellLengthPx);
+        if (maxSizePx != null && !(maxSizePx > 0 && Double.isFinite(maxSizePx))) {
+            throw new IllegalArgumentException("The greatest size must be a positive number, not " + maxSizePx);
+        }
+        if (cellLengthPx != null
+                && !(cellLengthPx >= LEAST_CELL_LENGTH_PX && cellLengthPx <= GREATEST_CELL_LENGTH_PX)) {
+            throw new IllegalArgumentException("The cell length must lie in %d to %d pixels, not %s"
+                    .formatted(LEAST_CELL_LENGTH_PX, GREATEST_CELL_LENGTH_PX, cellLengthPx));
+        }
         if (nmsIou != null && !(nmsIou >= 0 && nmsIou <= 1)) {
             throw new IllegalArgumentException("The overlap must lie in 0 to 1, not " + nmsIou);
         }
@@ -53,11 +66,5 @@ public record DetectionSettings(
     public DetectionSettings withRegion(@Nullable RegionMask newRegion) {
         return new DetectionSettings(
                 model, modelVersion, criterion, thresholds, maxSizePx, nmsIou, stabilise, cellLengthPx, newRegion);
-    }
-
-    private static void checkPositive(String name, @Nullable Double value) {
-        if (value != null && !(value > 0 && Double.isFinite(value))) {
-            throw new IllegalArgumentException("The %s must be a positive number, not %s".formatted(name, value));
-        }
     }
 }

@@ -10,7 +10,8 @@ import java.util.List;
  * @param version version of the model
  * @param sha256 SHA-256 of the model's card, which states those of its weights, hexadecimal
  * @param thresholds thresholds in force
- * @param scale factor by which frames are enlarged to reach the model's pixel size
+ * @param scale factor by which frames are enlarged, or below 1 shrunk, to bring cells to a length the model knows; 1 when
+ *     they are used as they are
  * @param engine computing engine, for example "openvino 2026.4 CPU"
  * @param warnings what the user should know about this film and these settings, one sentence each
  */

@@ -36,7 +36,7 @@ public final class MotilityCsv {
                 Integer.toString(track.lastFrame()),
                 Long.toString(track.points().size() - interpolated),
                 Long.toString(interpolated),
-                TrackCsv.decimal(motility.meanSpeedPixelsPerFrame()),
+                cell(motility.meanSpeedPixelsPerFrame()),
                 cell(motility.meanSpeed()),
                 Integer.toString(motility.lagFrames()),
                 cell(motility.lagSpeedPixelsPerFrame()),

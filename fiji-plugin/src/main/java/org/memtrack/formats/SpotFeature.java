@@ -57,6 +57,11 @@ public enum SpotFeature {
         return integer;
     }
 
+    /** Whether it tells of the drift of the stage. */
+    boolean isDrift() {
+        return this == DRIFT_X || this == DRIFT_Y;
+    }
+
     /** The value of {@link #LEVEL} for a level. */
     public static int codeOf(Level level) {
         return switch (level) {

@@ -29,6 +29,9 @@ final class TrackMateFeatures {
         declare(xml, "RADIUS", "Radius", "R", "LENGTH", false);
         declare(xml, "VISIBILITY", "Visibility", "Visibility", "NONE", true);
         for (SpotFeature feature : SpotFeature.values()) {
+            if (feature.isDrift() && tracked.drift().isNone()) {
+                continue;
+            }
             declare(
                     xml,
                     feature.key(),
@@ -94,9 +97,9 @@ final class TrackMateFeatures {
                 "TRACK_START",
                 Double.toString(track.firstFrame() * intervalSeconds),
                 "TRACK_STOP",
-                Double.toString(track.lastFrame() * intervalSeconds),
-                SPEED,
-                Double.toString(motility.meanSpeedPixelsPerFrame() * unit)));
+                Double.toString(track.lastFrame() * intervalSeconds)));
+        motility.meanSpeedPixelsPerFrame()
+                .ifPresent(speed -> attributes.addAll(List.of(SPEED, Double.toString(speed * unit))));
         motility.lagSpeedPixelsPerFrame()
                 .ifPresent(speed -> attributes.addAll(List.of(LAG_SPEED, Double.toString(speed * unit))));
         motility.peakDiffusivity().ifPresent(value -> attributes.addAll(List.of(DIFFUSIVITY, Double.toString(value))));

@@ -3,8 +3,6 @@ package org.memtrack.formats;
 
 import java.io.IOException;
 import java.nio.file.Path;
-import java.util.List;
-import org.memtrack.detection.FrameDetections;
 
 /** TrackMate XML, which TrackMate 7 and 8 open with its film. Spots carry our own {@link SpotFeature}s. */
 public final class TrackMateXml {
@@ -12,15 +10,6 @@ public final class TrackMateXml {
 
     /** Writes the tracks of a film, all or nothing; a track of one point becomes a spot of no track. */
     public static void write(Path target, TrackedFilm tracked) throws IOException {
-        write(target, tracked, List.of());
-    }
-
-    /**
-     * Writes the tracks of a film and the detections that no track holds, as spots of no track; all or nothing.
-     *
-     * @param detections what the tracks were made from
-     */
-    public static void write(Path target, TrackedFilm tracked, List<FrameDetections> detections) throws IOException {
-        AtomicFiles.write(target, out -> new TrackMateXmlWriter(tracked, detections).write(out));
+        AtomicFiles.write(target, out -> new TrackMateXmlWriter(tracked).write(out));
     }
 }

@@ -5,17 +5,11 @@ import java.io.IOException;
 import java.io.OutputStream;
 import java.util.ArrayList;
 import java.util.Arrays;
-import java.util.Collections;
-import java.util.IdentityHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Set;
 import java.util.TreeMap;
-import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
-import org.memtrack.detection.FrameDetections;
-import org.memtrack.detection.StageDrift;
 import org.memtrack.motility.TrackMotility;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.FilmInfo;
@@ -34,39 +28,30 @@ final class TrackMateXmlWriter {
     private final FilmInfo film;
     private final double pixelSize;
     private final double interval;
-    private final StageDrift drift;
+    private final boolean drifts;
     private final Map<Integer, List<Spot>> spotsOfFrame = new TreeMap<>();
     private final List<List<Spot>> spotsOfTrack = new ArrayList<>();
     private int spotCount;
 
-    /** A point with its number in the file; points of no track have no motility. */
-    private record Spot(int id, TrackPoint point, @Nullable TrackMotility motility) {}
+    /** A point with its number in the file and the motility of its track. */
+    private record Spot(int id, TrackPoint point, TrackMotility motility) {}
 
-    TrackMateXmlWriter(TrackedFilm tracked, List<FrameDetections> detections) {
+    TrackMateXmlWriter(TrackedFilm tracked) {
         this.tracked = tracked;
         this.film = tracked.film();
         this.pixelSize = film.pixelSizeMicrometres().orElse(1);
         this.interval = film.frameIntervalSeconds().orElse(1);
-        this.drift = new StageDrift(detections);
-        Set<Detection> linked = Collections.newSetFromMap(new IdentityHashMap<>());
+        this.drifts = !tracked.drift().isNone();
         for (int i = 0; i < tracked.tracks().size(); i++) {
             List<Spot> spots = new ArrayList<>();
             for (TrackPoint point : tracked.tracks().get(i).points()) {
                 spots.add(number(point, tracked.motility().get(i)));
-                linked.add(point.detection());
             }
             spotsOfTrack.add(spots);
         }
-        for (FrameDetections frame : detections) {
-            for (Detection detection : frame.detections()) {
-                if (!linked.contains(detection)) {
-                    number(new TrackPoint(frame.frame(), detection.box(), detection), null);
-                }
-            }
-        }
     }
 
-    private Spot number(TrackPoint point, @Nullable TrackMotility motility) {
+    private Spot number(TrackPoint point, TrackMotility motility) {
         Spot spot = new Spot(spotCount++, point, motility);
         spotsOfFrame.computeIfAbsent(point.frame(), frame -> new ArrayList<>()).add(spot);
         return spot;
@@ -138,22 +123,23 @@ final class TrackMateXmlWriter {
                 SpotFeature.BOX_WIDTH.key(),
                 Double.toString(box.width() * pixelSize),
                 SpotFeature.BOX_HEIGHT.key(),
-                Double.toString(box.height() * pixelSize),
-                SpotFeature.DRIFT_X.key(),
-                Double.toString(drift.x(point.frame()) * pixelSize),
-                SpotFeature.DRIFT_Y.key(),
-                Double.toString(drift.y(point.frame()) * pixelSize)));
+                Double.toString(box.height() * pixelSize)));
+        if (drifts) {
+            attributes.addAll(List.of(
+                    SpotFeature.DRIFT_X.key(),
+                    Double.toString(tracked.drift().x(point.frame()) * pixelSize),
+                    SpotFeature.DRIFT_Y.key(),
+                    Double.toString(tracked.drift().y(point.frame()) * pixelSize)));
+        }
         if (detection != null) {
             attributes.addAll(List.of(
                     SpotFeature.LEVEL.key(), Integer.toString(SpotFeature.codeOf(detection.level())),
                     SpotFeature.SCORE.key(), Double.toString(detection.score())));
         }
-        if (spot.motility() != null) {
-            spot.motility()
-                    .motilityClass()
-                    .ifPresent(motilityClass -> attributes.addAll(
-                            List.of(SpotFeature.MOTILITY.key(), Integer.toString(motilityClass.ordinal()))));
-        }
+        spot.motility()
+                .motilityClass()
+                .ifPresent(motilityClass -> attributes.addAll(
+                        List.of(SpotFeature.MOTILITY.key(), Integer.toString(motilityClass.ordinal()))));
         return attributes.toArray(String[]::new);
     }
 

@@ -6,6 +6,7 @@ import java.math.MathContext;
 import java.util.List;
 import java.util.OptionalDouble;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.motility.MotilityAnalysis;
 import org.memtrack.motility.TrackMotility;
 import org.memtrack.tracking.Track;
@@ -17,8 +18,9 @@ import org.memtrack.video.FilmInfo;
  * @param film the film
  * @param tracks its tracks
  * @param motility of each track, in the same order
+ * @param drift of the scene, which the tracks are not freed of
  */
-public record TrackedFilm(FilmInfo film, List<Track> tracks, List<TrackMotility> motility) {
+public record TrackedFilm(FilmInfo film, List<Track> tracks, List<TrackMotility> motility, StageDrift drift) {
     public TrackedFilm {
         tracks = List.copyOf(tracks);
         motility = List.copyOf(motility);
@@ -34,7 +36,8 @@ public record TrackedFilm(FilmInfo film, List<Track> tracks, List<TrackMotility>
      * @param frames what the detector said, for the drift of the scene; may be empty
      */
     public static TrackedFilm of(FilmInfo film, List<Track> tracks, List<FrameDetections> frames) {
-        return new TrackedFilm(film, tracks, MotilityAnalysis.analyse(film, tracks, frames));
+        StageDrift drift = new StageDrift(frames);
+        return new TrackedFilm(film, tracks, MotilityAnalysis.analyse(film, tracks, drift), drift);
     }
 
     /** What the lag speeds are taken over, for the user: a whole number of frames, in seconds where the film tells them. */

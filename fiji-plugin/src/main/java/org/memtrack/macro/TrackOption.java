@@ -51,7 +51,7 @@ public enum TrackOption {
             "Cell length (px)",
             Kind.NUMBER,
             "",
-            "length of a cell as it looks in the film, in pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is"),
+            "length of a cell as it looks in the film, 1 to 200 pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is"),
     STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
     OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
 

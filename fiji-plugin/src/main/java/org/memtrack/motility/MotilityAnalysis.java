@@ -4,7 +4,6 @@ package org.memtrack.motility;
 import java.util.List;
 import java.util.OptionalDouble;
 import java.util.stream.IntStream;
-import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.StageDrift;
 import org.memtrack.tracking.Track;
 import org.memtrack.video.FilmInfo;
@@ -27,17 +26,18 @@ public final class MotilityAnalysis {
      *
      * @param film whose calibration is used
      * @param tracks boxes in the coordinates of the raw film
-     * @param frames whose drift is taken away; a frame left out has the drift of the one before it
+     * @param drift of the scene, which is taken away
      */
-    public static List<TrackMotility> analyse(FilmInfo film, List<Track> tracks, List<FrameDetections> frames) {
-        StageDrift drift = new StageDrift(frames);
+    public static List<TrackMotility> analyse(FilmInfo film, List<Track> tracks, StageDrift drift) {
         return tracks.stream()
                 .map(track -> analyse(film, track.id(), new Trajectory(track, drift)))
                 .toList();
     }
 
     private static TrackMotility analyse(FilmInfo film, int trackId, Trajectory trajectory) {
-        double speed = trajectory.frameSpan() == 0 ? 0 : trajectory.length() / trajectory.frameSpan();
+        OptionalDouble speed = trajectory.frameSpan() == 0
+                ? OptionalDouble.empty()
+                : OptionalDouble.of(trajectory.length() / trajectory.frameSpan());
         int lag = film.frameIntervalSeconds().isPresent()
                 ? framesIn(SPEED_LAG_SECONDS, film.frameIntervalSeconds().getAsDouble())
                 : SPEED_LAG_FRAMES;
@@ -53,7 +53,7 @@ public final class MotilityAnalysis {
                 speed,
                 lag,
                 lagSpeed,
-                calibrated(film, OptionalDouble.of(speed)),
+                calibrated(film, speed),
                 calibrated(film, lagSpeed),
                 diffusivity,
                 diffusivity.stream().mapToObj(MotilityClass::of).findFirst());

@@ -4,28 +4,20 @@ package org.memtrack.run;
 import java.util.List;
 import org.memtrack.client.DetectionResult;
 import org.memtrack.client.ServerInfo;
-import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.TrackedFilm;
 
 /**
  * What a run found.
  *
  * @param tracked film, tracks and their motility; frames are numbered as in the image, also when only a part was tracked
- * @param frames detections, numbered likewise
  * @param droppedTracks tracks of detections that the track filter dropped
  * @param detection what the server answered
  * @param server what the server said of itself
  * @param warnings what the user should know, one sentence each
  */
 public record TrackingResult(
-        TrackedFilm tracked,
-        List<FrameDetections> frames,
-        int droppedTracks,
-        DetectionResult detection,
-        ServerInfo server,
-        List<String> warnings) {
+        TrackedFilm tracked, int droppedTracks, DetectionResult detection, ServerInfo server, List<String> warnings) {
     public TrackingResult {
-        frames = List.copyOf(frames);
         warnings = List.copyOf(warnings);
     }
 

@@ -52,7 +52,7 @@ public final class TrackingRun {
             if (found.tracks().isEmpty()) {
                 warnings.add(noTracks(detection.summary().kept(), settings));
             }
-            return new TrackingResult(tracked, frames, found.dropped(), detection, connection.info(), warnings);
+            return new TrackingResult(tracked, found.dropped(), detection, connection.info(), warnings);
         }
     }
 

@@ -16,9 +16,6 @@ import org.memtrack.tracking.SortTracker;
  */
 public record TrackingSettings(
         DetectionSettings detection, SortSettings tracking, ServerSettings server, boolean secondLook) {
-    public static final TrackingSettings DEFAULTS =
-            new TrackingSettings(DetectionSettings.DEFAULTS, SortSettings.DEFAULTS, ServerSettings.DEFAULTS, true);
-
     /** The same settings, detecting in another way. */
     public TrackingSettings with(DetectionSettings newDetection) {
         return new TrackingSettings(newDetection, tracking, server, secondLook);

@@ -2,7 +2,6 @@
 package org.memtrack.server;
 
 import java.io.IOException;
-import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.TimeoutException;
@@ -48,7 +47,7 @@ final class BasePython {
     private static String objection(Interpreter candidate, Progress progress) {
         WatchedProcess.End end;
         try {
-            end = WatchedProcess.run(candidate.process("-c", QUESTION), progress, line -> {}, Duration.ofMinutes(1));
+            end = WatchedProcess.run(candidate.process("-c", QUESTION), progress, line -> {}, Interpreter.ANSWER_LIMIT);
         } catch (IOException | TimeoutException e) {
             return "cannot be run: " + e.getMessage();
         }

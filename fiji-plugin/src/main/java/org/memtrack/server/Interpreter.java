@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.server;
 
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -13,6 +14,9 @@ import java.util.List;
  * @param isolated whether it is an environment of ours, which the user's Python settings must not reach into
  */
 record Interpreter(List<String> command, String origin, boolean chosen, boolean isolated) {
+    /** Within which one answers a question; the stub of the Windows Store may wait for a window instead. */
+    static final Duration ANSWER_LIMIT = Duration.ofSeconds(20);
+
     Interpreter {
         command = List.copyOf(command);
     }

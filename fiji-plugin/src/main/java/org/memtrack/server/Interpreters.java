@@ -21,7 +21,7 @@ import org.memtrack.detection.DetectorException;
 /** Where Pythons are looked for. */
 final class Interpreters {
     private static final List<String> NAMES =
-            List.of("python3", "python", "py", "python3.14", "python3.13", "python3.12", "python3.11", "python3.10");
+            List.of("python3", "python", "py", "python3.14", "python3.13", "python3.12", "python3.11");
 
     private Interpreters() {}
 

@@ -5,8 +5,10 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.TimeoutException;
+import java.util.stream.Stream;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 
@@ -28,35 +30,42 @@ public final class PythonCommand {
      * @throws CancellationException when progress was cancelled
      */
     public static List<String> run(List<String> arguments, Progress progress) {
-        return run(arguments, progress, Interpreters.candidates(null, System.getenv(), DataFolder.path()), LIMIT);
+        return run(
+                arguments,
+                progress,
+                Interpreters.candidates(null, System.getenv(), DataFolder.path()),
+                Interpreter.ANSWER_LIMIT,
+                LIMIT);
     }
 
-    static List<String> run(List<String> arguments, Progress progress, List<Interpreter> candidates, Duration limit) {
+    static List<String> run(
+            List<String> arguments,
+            Progress progress,
+            List<Interpreter> candidates,
+            Duration answerLimit,
+            Duration limit) {
         List<String> command = new ArrayList<>(List.of("-m", "memtrack"));
         command.addAll(arguments);
         List<String> reasons = new ArrayList<>();
         for (Interpreter python : candidates) {
+            Optional<String> objection = objection(python, progress, answerLimit);
+            if (objection.isPresent()) {
+                reasons.add("%s cannot be run: %s".formatted(python.describe(), objection.get()));
+                continue;
+            }
             try {
                 WatchedProcess.End end =
                         WatchedProcess.run(python.process(command.toArray(String[]::new)), progress, line -> {}, limit);
                 if (end.exitCode() == 0) {
                     return end.lines();
                 }
-                String code = "it ended with code " + end.exitCode();
                 String last = end.lines().isEmpty()
-                        ? code
+                        ? "it ended with code " + end.exitCode()
                         : end.lines().get(end.lines().size() - 1);
-                if (last.contains(NOT_INSTALLED)) {
-                    reasons.add(last);
-                } else if (runs(python, progress, limit)) {
+                if (!last.contains(NOT_INSTALLED)) {
                     throw new DetectorException("memtrack %s failed: %s".formatted(arguments.get(0), last));
-                } else {
-                    String first = end.lines().stream()
-                            .filter(line -> !line.isBlank())
-                            .findFirst()
-                            .orElse(code);
-                    reasons.add("%s cannot be run: %s".formatted(python.describe(), first));
                 }
+                reasons.add(last);
             } catch (IOException e) {
                 reasons.add("%s cannot be run: %s".formatted(python.describe(), e.getMessage()));
             } catch (TimeoutException e) {
@@ -72,11 +81,17 @@ public final class PythonCommand {
                         .formatted(reasons.isEmpty() ? "No Python was found" : reasons.get(0)));
     }
 
-    /** Whether it is a Python at all; a shim of pyenv or the stub of the Windows Store may only say why it is none. */
-    private static boolean runs(Interpreter python, Progress progress, Duration limit)
-            throws IOException, TimeoutException {
-        return WatchedProcess.run(python.process("-c", "pass"), progress, line -> {}, limit)
-                        .exitCode()
-                == 0;
+    /** Why it is no Python that runs; a shim of pyenv or the stub of the Windows Store may say so, or wait. */
+    private static Optional<String> objection(Interpreter python, Progress progress, Duration limit) {
+        try {
+            WatchedProcess.End end = WatchedProcess.run(python.process("-c", "pass"), progress, line -> {}, limit);
+            return end.exitCode() == 0
+                    ? Optional.empty()
+                    : Stream.concat(end.lines().stream(), Stream.of("it ended with code " + end.exitCode()))
+                            .filter(line -> !line.isBlank())
+                            .findFirst();
+        } catch (IOException | TimeoutException e) {
+            return Optional.of(String.valueOf(e.getMessage()));
+        }
     }
 }

@@ -54,7 +54,8 @@ final class WatchedProcess {
             while (!process.waitFor(100, TimeUnit.MILLISECONDS)) {
                 progress.throwIfCancelled();
                 if (System.nanoTime() > end) {
-                    throw new TimeoutException("did not end within %d min".formatted(limit.toMinutes()));
+                    throw new TimeoutException("did not end within "
+                            + (limit.toMinutes() > 0 ? limit.toMinutes() + " min" : limit.toSeconds() + " s"));
                 }
             }
             output.finish();

@@ -13,6 +13,7 @@ import javax.swing.JComboBox;
 import javax.swing.JLabel;
 import javax.swing.JSpinner;
 import org.jspecify.annotations.Nullable;
+import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.ModelCard;
 
 /** The detector's settings in TrackMate's wizard, with the model's card, the server's state and a preview. */
@@ -30,7 +31,7 @@ final class DetectorPanel extends ConfigurationPanel {
     private final JSpinner medium = Form.number(0.5, 0, 1, 0.05);
     private final JSpinner high = Form.number(0.5, 0, 1, 0.05);
     private final JSpinner channel;
-    private final JSpinner cellLength = Form.number(0, 0, 10_000, 1);
+    private final JSpinner cellLength = Form.number(0, 0, DetectionSettings.GREATEST_CELL_LENGTH_PX, 1);
     private final JSpinner maximumSize = Form.number(0, 0, 10_000, 1);
     private final JSpinner nmsIou = Form.number(0, 0, 1, 0.05);
     private final JCheckBox stabilise = new JCheckBox("Undo drift of the stage", true);
@@ -72,7 +73,7 @@ final class DetectorPanel extends ConfigurationPanel {
         form.row(
                 "Cell length (px)",
                 cellLength,
-                "Length of a cell as it looks in this film, in pixels; by it the film is brought to the model's scale. 0: by"
+                "Length of a cell as it looks in this film, 1 to 200 pixels; by it the film is brought to the model's scale. 0: by"
                         + " the film's pixel size, cells being taken to be 2 um long; without one the film is used as it is.");
         form.row(
                 "Greatest size (px)",

@@ -26,29 +26,29 @@ final class EvaluationSummary {
             measures = JsonParser.parseReader(reader).getAsJsonObject().getAsJsonObject("all_films");
         }
         return List.of(
-                "Precision %s, recall %s, F1 %s."
+                "Boxes, frame by frame: precision %s, recall %s, F1 %s; 1 is best."
                         .formatted(
                                 number(measures, "precision", 3),
                                 number(measures, "recall", 3),
                                 number(measures, "F1", 3)),
-                "HOTA %s, MOTA %s, IDF1 %s; error of the centres %s px (root mean square)."
+                "Tracks: HOTA %s, MOTA %s, IDF1 %s; 1 is best. Error of the centres, root mean square, in pixels: %s."
                         .formatted(
                                 number(measures, "HOTA", 3),
                                 number(measures, "MOTA", 3),
                                 number(measures, "IDF1", 3),
                                 number(measures, "RMSE_px", 1)),
-                "The truth has %s tracks. Of the %s compared with it, %s are false."
+                "Tracks in the truth: %s. Compared with it: %s, of which %s false, with fewer than half of their points right."
                         .formatted(
                                 number(measures, "truth_tracks", 0),
                                 number(measures, "tracks", 0),
                                 number(measures, "false_tracks", 0)));
     }
 
-    /** A measure; "none" where it is undefined, as the precision of no track. */
+    /** A measure; "undefined" where it has no value, as the precision of no track. */
     private static String number(JsonObject measures, String name, int decimals) {
         JsonElement value = measures.get(name);
         return value == null || value.isJsonNull()
-                ? "none"
+                ? "undefined"
                 : String.format(Locale.ROOT, "%." + decimals + "f", value.getAsDouble());
     }
 }

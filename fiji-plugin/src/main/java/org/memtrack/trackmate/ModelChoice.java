@@ -10,7 +10,7 @@ import org.memtrack.client.ModelCard;
 
 /** Chooses among the server's models; before they are known, what the settings say can be kept. */
 final class ModelChoice {
-    /** Version "" is the newest, name "" the server's default model. */
+    /** Version "" is the newest, name "" the model called default. */
     private record Item(String name, String version, String description) {
         boolean same(Item other) {
             return name.equals(other.name) && version.equals(other.version);
@@ -60,22 +60,22 @@ final class ModelChoice {
         box.setSelectedItem(wanted);
     }
 
-    /** Offers these models and keeps the selection. */
+    /**
+     * Offers these models and keeps the selection.
+     *
+     * @param cards those of one name newest first, as the server tells them
+     */
     void offer(List<ModelCard> cards) {
         Item selected = selected();
         List<Item> items = new ArrayList<>();
+        items.add(cards.stream()
+                .filter(card -> card.name().equals("default"))
+                .findFirst()
+                .map(card -> new Item("", "", "%s %s: %s".formatted(card.name(), card.version(), card.description())))
+                .orElse(DEFAULT));
         for (ModelCard card : cards) {
             items.add(new Item(card.name(), card.version(), card.description()));
         }
-        // The server's own rule: the model of this name, else its first one.
-        items.stream()
-                .filter(item -> item.name.equals("default"))
-                .findFirst()
-                .or(() -> items.stream().findFirst())
-                .ifPresentOrElse(
-                        item -> items.add(
-                                0, new Item("", "", "%s %s: %s".formatted(item.name, item.version, item.description))),
-                        () -> items.add(DEFAULT));
         box.setModel(new DefaultComboBoxModel<>(items.toArray(Item[]::new)));
         select(selected.name, selected.version);
     }

@@ -85,7 +85,9 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
         calibration.pixelWidth = settings.dx;
         calibration.pixelHeight = settings.dy;
         calibration.setUnit(trackmate.getModel().getSpaceUnits());
-        calibration.frameInterval = settings.dt;
+        // TrackMate takes 1 s for the interval of a film that does not tell it.
+        boolean told = settings.dt != 1 || settings.imp.getCalibration().frameInterval > 0;
+        calibration.frameInterval = told ? settings.dt : 0;
         calibration.setTimeUnit(trackmate.getModel().getTimeUnits());
         Map<String, Object> detector = settings.detectorSettings;
         Object channel = detector == null ? null : detector.get(DetectorSettings.CHANNEL);

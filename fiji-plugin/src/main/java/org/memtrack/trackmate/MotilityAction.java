@@ -6,7 +6,6 @@ import fiji.plugin.trackmate.action.TrackMateActionFactory;
 import ij.gui.Plot;
 import ij.measure.ResultsTable;
 import java.util.Arrays;
-import java.util.List;
 import java.util.OptionalDouble;
 import java.util.stream.Collectors;
 import javax.swing.ImageIcon;
@@ -41,7 +40,7 @@ final class MotilityAction extends ModelAction {
         public String getInfoText() {
             return "<html>Speeds, diffusivity and class of motility (none, low, medium, high) of every visible track, as a"
                     + " table and as plots. The film needs a pixel size and a frame interval for more than speeds in pixels per"
-                    + " frame. Interpolated spots are left out.</html>";
+                    + " frame: set them in Image > Properties. Interpolated spots are left out.</html>";
         }
 
         @Override
@@ -73,8 +72,9 @@ final class MotilityAction extends ModelAction {
             table.addValue(
                     "Interpolated",
                     track.points().stream().filter(TrackPoint::interpolated).count());
-            table.addValue("Speed (px/frame)", motility.meanSpeedPixelsPerFrame());
+            add(table, "Speed (px/frame)", motility.meanSpeedPixelsPerFrame());
             add(table, "Speed (um/s)", motility.meanSpeed());
+            add(table, "Lag speed (px/frame)", motility.lagSpeedPixelsPerFrame());
             add(table, "Lag speed (um/s)", motility.lagSpeed());
             add(table, "Peak diffusivity (um^2/s)", motility.peakDiffusivity());
             table.addValue(
@@ -88,20 +88,16 @@ final class MotilityAction extends ModelAction {
         table.addValue(column, value.orElse(Double.NaN));
     }
 
-    /** Histogram of the speeds: over a lag, which errors of position spoil less, where the film is calibrated. */
+    /** Histogram of the speeds over the lag, which errors of position spoil less than those from frame to frame. */
     static Plot speeds(ModelTracks tracks) {
-        List<TrackMotility> motility = tracks.tracked().motility();
         boolean calibrated = tracks.info().calibrated();
-        double[] speeds = calibrated
-                ? motility.stream()
-                        .flatMapToDouble(track -> track.lagSpeed().stream())
-                        .toArray()
-                : motility.stream()
-                        .mapToDouble(TrackMotility::meanSpeedPixelsPerFrame)
-                        .toArray();
+        double[] speeds = tracks.tracked().motility().stream()
+                .map(calibrated ? TrackMotility::lagSpeed : TrackMotility::lagSpeedPixelsPerFrame)
+                .flatMapToDouble(OptionalDouble::stream)
+                .toArray();
         Plot plot = new Plot(
                 "Speeds in " + tracks.info().title(),
-                calibrated ? "speed over %s (um/s)".formatted(tracks.tracked().speedLag()) : "speed (px/frame)",
+                "speed over %s (%s)".formatted(tracks.tracked().speedLag(), calibrated ? "um/s" : "px/frame"),
                 "tracks");
         plot.setColor("black", "lightgray");
         plot.addHistogram(speeds);

@@ -117,14 +117,14 @@ final class TrainingDataAction extends ModelAction {
     private static String recipe(ModelTracks tracks, Path film, Path table) {
         return "# Put these lines into the recipe of a training; the paths are relative to the recipe.\n"
                 + "[[annotated]]\n"
-                + "film = \"%s\"%n".formatted(film.getFileName())
-                + "tracks = \"%s\"%n".formatted(table.getFileName())
+                + "film = \"%s\"\n".formatted(film.getFileName())
+                + "tracks = \"%s\"\n".formatted(table.getFileName())
                 + "role = \"training\"\n"
                 + line("pixel_size_um", tracks.info().pixelSizeMicrometres())
                 + line("frame_interval_seconds", tracks.info().frameIntervalSeconds());
     }
 
     private static String line(String key, OptionalDouble value) {
-        return value.isPresent() ? String.format(Locale.ROOT, "%s = %s%n", key, value.getAsDouble()) : "";
+        return value.isPresent() ? String.format(Locale.ROOT, "%s = %s\n", key, value.getAsDouble()) : "";
     }
 }

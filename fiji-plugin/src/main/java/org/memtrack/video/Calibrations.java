@@ -52,14 +52,17 @@ record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameInt
             }
         }
         if (pixelSize.isEmpty() || interval.isEmpty()) {
-            warnings.add("The film has no %s: speeds are reported in pixels per frame; give %s to have them in um/s."
-                    .formatted(
-                            pixelSize.isPresent()
-                                    ? "frame interval"
-                                    : interval.isPresent() ? "pixel size" : "pixel size and no frame interval",
-                            pixelSize.isPresent()
-                                    ? FRAME_INTERVAL
-                                    : interval.isPresent() ? PIXEL_SIZE : PIXEL_SIZE + " and " + FRAME_INTERVAL));
+            warnings.add(
+                    "The film has no %s: speeds are reported in pixels per frame; to have them in um/s, set what is missing in Image > Properties or give %s."
+                            .formatted(
+                                    pixelSize.isPresent()
+                                            ? "frame interval"
+                                            : interval.isPresent() ? "pixel size" : "pixel size and no frame interval",
+                                    pixelSize.isPresent()
+                                            ? FRAME_INTERVAL
+                                            : interval.isPresent()
+                                                    ? PIXEL_SIZE
+                                                    : PIXEL_SIZE + " and " + FRAME_INTERVAL));
         }
         return new Calibrations(pixelSize, interval, warnings);
     }

@@ -21,8 +21,4 @@ public record RegionMask(int width, int height, BitSet inside) {
             throw new IllegalArgumentException("The region holds no pixel");
         }
     }
-
-    public boolean contains(int x, int y) {
-        return x >= 0 && x < width && y >= 0 && y < height && inside.get(y * width + x);
-    }
 }

@@ -15,6 +15,7 @@ import ij.ImagePlus;
 import ij.ImageStack;
 import ij.VirtualStack;
 import ij.gui.Plot;
+import ij.measure.Calibration;
 import ij.measure.ResultsTable;
 import ij.process.ImageProcessor;
 import java.awt.event.KeyEvent;
@@ -82,6 +83,20 @@ class ActionsTest {
         Plot classes = MotilityAction.classes(ModelTracks.of(tracked()));
         assertThat(classes.getLabel('x')).isEqualTo("{none,low,medium,high}");
         assertThat(classes.getPlotObjectStyle(0)).contains("Separated Bars");
+    }
+
+    @Test
+    void withoutCalibrationSpeedsOverTheLagArePixelsAFrame() {
+        ImagePlus film = Films.twoSwimmers(20);
+        film.setCalibration(new Calibration());
+        TrackMate trackmate = TrackerInTrackMateTest.logAndSort(film, 4, 20, 10);
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        ModelTracks tracks = ModelTracks.of(trackmate);
+        ResultsTable table = MotilityAction.table(tracks);
+        assertThat(table.getValue("Lag speed (px/frame)", 0)).isCloseTo(2, within(0.05));
+        assertThat(table.getValue("Speed (um/s)", 0)).isNaN();
+        assertThat(MotilityAction.speeds(tracks).getLabel('x')).isEqualTo("speed over 6 frames (px/frame)");
+        assertThat(tracks.notes()).singleElement().asString().contains("set what is missing in Image > Properties");
     }
 
     @Test
@@ -181,8 +196,8 @@ class ActionsTest {
         List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"), Progress.NONE);
         assertThat(lines)
                 .contains(
-                        "Precision 1.000, recall 1.000, F1 1.000.",
-                        "The truth has 2 tracks. Of the 2 compared with it, 0 are false.");
+                        "Boxes, frame by frame: precision 1.000, recall 1.000, F1 1.000; 1 is best.",
+                        "Tracks in the truth: 2. Compared with it: 2, of which 0 false, with fewer than half of their points right.");
         assertThat(folder.resolve("out/evaluation.html")).exists();
         assertThat(Files.readString(folder.resolve("out/evaluation.json"))).contains("\"f1\": 1.0");
     }

@@ -22,11 +22,13 @@ import java.util.stream.StreamSupport;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.Progress;
 import org.memtrack.formats.TrackMateXml;
 import org.memtrack.run.TrackingResult;
 import org.memtrack.run.TrackingRun;
 import org.memtrack.run.TrackingSettings;
+import org.memtrack.server.ServerSettings;
 import org.memtrack.testing.ExaminationData;
 import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.Track;
@@ -53,11 +55,12 @@ class MainJobXmlTest {
                 0,
                 OptionalDouble.of(PIXEL_SIZE),
                 OptionalDouble.of(INTERVAL));
-        TrackingSettings settings = TrackingSettings.DEFAULTS.with(SortSettings.WATER);
+        TrackingSettings settings = new TrackingSettings(
+                DetectionSettings.DEFAULTS, SortSettings.WATER, ServerSettings.DEFAULTS, true);
         TrackingResult result = TrackingRun.run(new ImageFilm(image, options), settings, Progress.NONE);
         List<Track> tracks = result.tracked().tracks();
         Path xml = folder.resolve("tracks.xml");
-        TrackMateXml.write(xml, result.tracked(), result.frames());
+        TrackMateXml.write(xml, result.tracked());
 
         TmXmlReader reader = new TmXmlReader(xml.toFile());
         Model model = reader.getModel();

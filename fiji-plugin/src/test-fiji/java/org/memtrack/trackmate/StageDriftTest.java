@@ -18,10 +18,25 @@ import ij.process.ByteProcessor;
 import java.io.File;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.Random;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
+import org.memtrack.client.Criterion;
+import org.memtrack.client.DetectionSettings;
+import org.memtrack.client.Progress;
+import org.memtrack.formats.MotilityCsv;
+import org.memtrack.run.Origin;
+import org.memtrack.run.ResultFiles;
+import org.memtrack.run.TrackingResult;
+import org.memtrack.run.TrackingRun;
+import org.memtrack.run.TrackingSettings;
+import org.memtrack.server.ServerSettings;
+import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.TrackFilter;
+import org.memtrack.video.FilmOptions;
+import org.memtrack.video.ImageFilm;
 
 /** A stage that jumps 20 px right and 30 px up in frame 15, under cells that swim 1 px right a frame. */
 @Timeout(240)
@@ -87,6 +102,31 @@ class StageDriftTest {
             assertThat(spot.getFeature("MEMTRACK_DRIFT_Y"))
                     .isCloseTo(before ? 0 : JUMP_Y * Films.PIXEL_SIZE, within(0.25));
         }
+    }
+
+    @Test
+    void theFileOfTheMenuCommandHasTheMotilityOfItsTable(@TempDir Path folder) throws Exception {
+        ImagePlus image = film();
+        ImageFilm film = new ImageFilm(image, FilmOptions.DEFAULTS);
+        TrackingSettings settings = new TrackingSettings(
+                new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, 8.0, null),
+                SortSettings.DEFAULTS.with(TrackFilter.ofLength(10)),
+                ServerSettings.DEFAULTS,
+                true);
+        TrackingResult result = TrackingRun.run(film, settings, Progress.NONE);
+        assertThat(result.tracked().tracks()).isNotEmpty();
+        ResultFiles files = ResultFiles.in(folder, film);
+        files.write(result, film, Origin.of(film, result, Map.of(), List.of()));
+
+        TrackMate opened = new TrackMate(new TmXmlReader(files.xml().toFile()).getModel(), new Settings(image));
+        Path again = folder.resolve("again.csv");
+        MotilityCsv.write(again, ModelTracks.of(opened).tracked());
+        assertThat(again).hasSameTextualContentAs(files.motility());
+        assertThat(TrackerInTrackMateTest.spots(opened.getModel(), 0))
+                .filteredOn(spot -> Spots.frame(spot) >= JUMP)
+                .isNotEmpty()
+                .allSatisfy(spot -> assertThat(spot.getFeature("MEMTRACK_DRIFT_X"))
+                        .isCloseTo(JUMP_X * Films.PIXEL_SIZE, within(0.25)));
     }
 
     private static Spot spot(int frame, int cell) {

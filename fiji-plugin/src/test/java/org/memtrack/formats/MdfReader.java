@@ -48,6 +48,8 @@ final class MdfReader {
                 OptionalDouble.empty(),
                 OptionalDouble.empty(),
                 Level.UNSPECIFIED,
-                time != Math.round(time));
+                time != Math.round(time),
+                OptionalDouble.empty(),
+                OptionalDouble.empty());
     }
 }

@@ -5,6 +5,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 import java.io.IOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.OptionalDouble;
@@ -12,9 +13,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.Level;
-import org.memtrack.formats.TrackedWorlds.TrackedWorld;
 import org.memtrack.motility.MotilityClass;
 import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.Track;
@@ -28,7 +30,7 @@ class RoundTripTest {
     @ParameterizedTest
     @CsvSource({"1, true, FILL_GAPS", "2, false, FILL_GAPS", "3, true, AUTHORS", "4, false, AUTHORS"})
     void trackMateXmlKeepsEverything(long seed, boolean calibrated, Interpolation interpolation) throws IOException {
-        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation);
         Path file = folder.resolve("tracks ü [水].xml");
 
         TrackMateXml.write(file, tracked);
@@ -54,7 +56,7 @@ class RoundTripTest {
 
     @Test
     void linksCostOneMinusTheOverlapOfTheirBoxes() throws IOException {
-        TrackedFilm tracked = TrackedWorlds.of(5, true, Interpolation.FILL_GAPS).tracked();
+        TrackedFilm tracked = TrackedWorlds.of(5, true, Interpolation.FILL_GAPS);
         Path file = folder.resolve("tracks.xml");
 
         TrackMateXml.write(file, tracked);
@@ -68,26 +70,64 @@ class RoundTripTest {
         }
     }
 
-    @Test
-    void detectionsOfNoTrackAreWrittenWhenAskedFor() throws IOException {
-        TrackedWorld world = TrackedWorlds.of(6, true, Interpolation.FILL_GAPS);
+    @ParameterizedTest
+    @CsvSource({"6, true", "12, false"})
+    void theDriftOfTheStageIsReadBackAndWithItTheMotility(long seed, boolean calibrated) throws IOException {
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, Interpolation.FILL_GAPS, 1.5);
         Path file = folder.resolve("tracks.xml");
 
-        TrackMateXml.write(file, world.tracked(), world.detections());
-
+        TrackMateXml.write(file, tracked);
         ImportedTracks read = TrackMateXmlReader.read(file);
-        long detections = world.detections().stream()
-                .mapToLong(frame -> frame.detections().size())
-                .sum();
-        assertThat(read.spots().stream().filter(spot -> !spot.interpolated())).hasSize((int) detections);
-        assertThat(read.tracks()).hasSameSizeAs(world.tracked().tracks());
+
+        List<FrameDetections> drift = read.spots().stream()
+                .map(spot -> new FrameDetections(
+                        spot.frame(),
+                        List.of(),
+                        spot.driftX().getAsDouble(),
+                        spot.driftY().getAsDouble()))
+                .toList();
+        assertThat(drift).hasSizeGreaterThan(50).allSatisfy(frame -> {
+            assertThat(frame.driftX()).isCloseTo(1.5 * frame.frame(), within(1e-9));
+            assertThat(frame.driftY()).isCloseTo(-0.75 * frame.frame(), within(1e-9));
+        });
+        List<Track> tracks = read.tracks().stream().map(RoundTripTest::asRead).toList();
+        assertThat(motilityTable(TrackedFilm.of(tracked.film(), tracks, drift))).isEqualTo(motilityTable(tracked));
+        assertThat(motilityTable(TrackedFilm.of(tracked.film(), tracks, List.of())))
+                .as("the drift taken for swimming")
+                .isNotEqualTo(motilityTable(tracked));
+    }
+
+    private static Track asRead(ImportedTrack track) {
+        return new Track(
+                track.id(),
+                track.spots().stream()
+                        .map(spot -> {
+                            Box box = Box.around(
+                                    spot.x(),
+                                    spot.y(),
+                                    spot.width().getAsDouble(),
+                                    spot.height().getAsDouble());
+                            return new TrackPoint(
+                                    spot.frame(),
+                                    box,
+                                    spot.interpolated()
+                                            ? null
+                                            : new Detection(box, spot.score().getAsDouble(), spot.level()));
+                        })
+                        .toList());
+    }
+
+    private String motilityTable(TrackedFilm tracked) throws IOException {
+        Path file = folder.resolve("motility.csv");
+        MotilityCsv.write(file, tracked);
+        return Files.readString(file);
     }
 
     @ParameterizedTest
     @CsvSource({"7, true, FILL_GAPS", "8, false, AUTHORS"})
     void csvKeepsEverythingToFourDecimals(long seed, boolean calibrated, Interpolation interpolation)
             throws IOException {
-        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation);
         Path file = folder.resolve("tracks.csv");
 
         TrackCsv.write(file, tracked);
@@ -104,7 +144,7 @@ class RoundTripTest {
     @CsvSource({"9, true, FILL_GAPS", "10, false, AUTHORS"})
     void mdfKeepsPlacesAndWhatIsInterpolated(long seed, boolean calibrated, Interpolation interpolation)
             throws IOException {
-        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation).tracked();
+        TrackedFilm tracked = TrackedWorlds.of(seed, calibrated, interpolation);
         Path file = folder.resolve("tracks.mdf");
 
         Mdf.write(file, tracked);
@@ -161,8 +201,8 @@ class RoundTripTest {
 
     @Test
     void noTracksAreWrittenAndReadAsNone() throws IOException {
-        TrackedFilm none = new TrackedFilm(
-                TrackedWorlds.of(1, true, Interpolation.FILL_GAPS).tracked().film(), List.of(), List.of());
+        TrackedFilm none = TrackedFilm.of(
+                TrackedWorlds.of(1, true, Interpolation.FILL_GAPS).film(), List.of(), List.of());
         Path xml = folder.resolve("none.xml");
         Path csv = folder.resolve("none.csv");
         Path mdf = folder.resolve("none.mdf");
@@ -178,8 +218,7 @@ class RoundTripTest {
 
     @Test
     void everyClassOfMotilityHasItsCluster() throws IOException {
-        TrackedFilm tracked =
-                TrackedWorlds.of(11, true, Interpolation.FILL_GAPS).tracked();
+        TrackedFilm tracked = TrackedWorlds.of(11, true, Interpolation.FILL_GAPS);
         Path file = folder.resolve("tracks.mdf");
 
         Mdf.write(file, tracked);

@@ -38,7 +38,9 @@ final class TrackCsvReader {
                             number(row[columns.indexOf("height")]),
                             number(row[columns.indexOf("score")]),
                             named(Level.values(), row[columns.indexOf("level")]).orElse(Level.UNSPECIFIED),
-                            row[columns.indexOf("interpolated")].equals("1")));
+                            row[columns.indexOf("interpolated")].equals("1"),
+                            OptionalDouble.empty(),
+                            OptionalDouble.empty()));
         }
         return ImportedTracks.of("CSV", List.copyOf(tracks.values()));
     }

@@ -72,7 +72,9 @@ final class TrackMateXmlReader {
                 pixels(spot, SpotFeature.BOX_HEIGHT.key()),
                 number(spot, SpotFeature.SCORE.key()),
                 SpotFeature.levelOf(number(spot, SpotFeature.LEVEL.key()).orElse(0)),
-                integer(spot, SpotFeature.INTERPOLATED.key()) == 1);
+                integer(spot, SpotFeature.INTERPOLATED.key()) == 1,
+                pixels(spot, SpotFeature.DRIFT_X.key()),
+                pixels(spot, SpotFeature.DRIFT_Y.key()));
     }
 
     private static ImportedTrack track(Element track, Map<Integer, ImportedSpot> spots) {

@@ -5,6 +5,8 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Optional;
 import java.util.OptionalDouble;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.testing.RandomWorld;
 import org.memtrack.tracking.Association;
@@ -17,12 +19,18 @@ import org.memtrack.video.FilmInfo;
 
 /** Tracked films to write and read back. */
 final class TrackedWorlds {
-    /** Tracks with their film and the detections they were made from. */
-    record TrackedWorld(TrackedFilm tracked, List<FrameDetections> detections) {}
-
     private TrackedWorlds() {}
 
-    static TrackedWorld of(long seed, boolean calibrated, Interpolation interpolation) {
+    static TrackedFilm of(long seed, boolean calibrated, Interpolation interpolation) {
+        return of(seed, calibrated, interpolation, 0);
+    }
+
+    /**
+     * On a stage that drifts.
+     *
+     * @param drift of the scene, pixels a frame, to the right and half as much upwards
+     */
+    static TrackedFilm of(long seed, boolean calibrated, Interpolation interpolation, double drift) {
         RandomWorld world =
                 RandomWorld.of(new RandomWorld.Settings(300, 200, 50, 15, 2, 0.05, 24, 0.8, 0.15, 0.03, 0.2, 2), seed);
         FilmInfo film = new FilmInfo(
@@ -35,7 +43,21 @@ final class TrackedWorlds {
                 calibrated ? OptionalDouble.of(1 / 60.0) : OptionalDouble.empty());
         SortSettings settings =
                 new SortSettings(Association.MOTION, 0.05, 8, 0, interpolation, TrackFilter.ofLength(5));
-        List<Track> tracks = new SortTracker(settings).track(world.frames());
-        return new TrackedWorld(TrackedFilm.of(film, tracks, world.frames()), world.frames());
+        List<FrameDetections> frames = world.frames().stream()
+                .map(frame -> drifted(frame, drift * frame.frame(), -drift * frame.frame() / 2))
+                .toList();
+        List<Track> tracks = new SortTracker(settings).track(frames);
+        return TrackedFilm.of(film, tracks, frames);
+    }
+
+    private static FrameDetections drifted(FrameDetections frame, double x, double y) {
+        List<Detection> moved = frame.detections().stream()
+                .map(detection -> {
+                    Box box = detection.box();
+                    Box there = Box.around(box.centreX() + x, box.centreY() + y, box.width(), box.height());
+                    return new Detection(there, detection.score(), detection.level());
+                })
+                .toList();
+        return new FrameDetections(frame.frame(), moved, x, y);
     }
 }

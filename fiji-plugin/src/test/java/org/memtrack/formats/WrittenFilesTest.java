@@ -30,8 +30,7 @@ class WrittenFilesTest {
     @TempDir
     Path folder;
 
-    private final TrackedFilm tracked =
-            TrackedWorlds.of(1, true, Interpolation.FILL_GAPS).tracked();
+    private final TrackedFilm tracked = TrackedWorlds.of(1, true, Interpolation.FILL_GAPS);
 
     @Test
     void mdfIsAsciiWithCarriageReturnsAndColours() throws IOException {
@@ -110,6 +109,10 @@ class WrittenFilesTest {
 
         String text = Files.readString(file);
         for (SpotFeature feature : SpotFeature.values()) {
+            if (feature.isDrift()) {
+                assertThat(text).as("a stage that stands still").doesNotContain(feature.key());
+                continue;
+            }
             assertThat(text).contains("feature=\"" + feature.key() + "\"").contains(feature.key() + "=\"");
         }
         assertThat(text).contains("feature=\"LINK_COST\"").contains("DETECTOR_NAME=\"MANUAL_DETECTOR\"");
@@ -136,6 +139,19 @@ class WrittenFilesTest {
     }
 
     @Test
+    void aSpeedThatWasNotMeasuredIsAnEmptyCell() throws IOException {
+        Detection detection = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
+        Track track = new Track(0, List.of(new TrackPoint(3, detection.box(), detection)));
+        FilmInfo film =
+                new FilmInfo("film", Optional.empty(), 100, 80, 6, OptionalDouble.of(0.25), OptionalDouble.of(0.5));
+        Path file = folder.resolve("motility.csv");
+
+        MotilityCsv.write(file, TrackedFilm.of(film, List.of(track), List.of()));
+
+        assertThat(Files.readAllLines(file)).last().isEqualTo("0,3,3,1,0,,,1,,,,");
+    }
+
+    @Test
     void trackMateXmlHasTheDriftOfTheStageOnEverySpot() throws IOException {
         Detection before = new Detection(Box.around(50, 60, 10, 12), 0.9, Level.LOW);
         Detection after = new Detection(Box.around(71, 30, 10, 12), 0.9, Level.LOW);
@@ -153,13 +169,14 @@ class WrittenFilesTest {
                 new FilmInfo("film", Optional.empty(), 100, 80, 6, OptionalDouble.of(0.25), OptionalDouble.of(0.5));
         Path file = folder.resolve("tracks.xml");
 
-        TrackMateXml.write(file, TrackedFilm.of(film, List.of(track), frames), frames);
+        TrackMateXml.write(file, TrackedFilm.of(film, List.of(track), frames));
 
         assertThat(Files.readString(file).lines().filter(line -> line.contains("<Spot ")))
                 .satisfiesExactly(
                         spot -> assertThat(spot).contains("DRIFT_X=\"0.0\"", "DRIFT_Y=\"0.0\""),
                         spot -> assertThat(spot).contains("DRIFT_X=\"5.0\"", "DRIFT_Y=\"-7.5\""),
                         spot -> assertThat(spot).contains("DRIFT_X=\"5.0\"", "DRIFT_Y=\"-7.5\""));
+        assertThat(file).content().contains("feature=\"MEMTRACK_DRIFT_X\"", "feature=\"MEMTRACK_DRIFT_Y\"");
     }
 
     @Test

@@ -14,9 +14,11 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.client.Criterion;
+import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.Thresholds;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.run.TrackingSettings;
+import org.memtrack.server.ServerSettings;
 import org.memtrack.tracking.Association;
 import org.memtrack.tracking.Interpolation;
 import org.memtrack.tracking.SortSettings;
@@ -25,10 +27,13 @@ import org.memtrack.video.FilmOptions;
 import org.memtrack.video.FrameAxis;
 
 class TrackRequestTest {
+    private static final TrackingSettings DEFAULTS =
+            new TrackingSettings(DetectionSettings.DEFAULTS, SortSettings.DEFAULTS, ServerSettings.DEFAULTS, true);
+
     @Test
     void whatIsLeftOutHasTheDefaultOfEachComponent() {
         TrackRequest request = of("output=out");
-        assertThat(request.settings()).isEqualTo(TrackingSettings.DEFAULTS);
+        assertThat(request.settings()).isEqualTo(DEFAULTS);
         assertThat(request.film()).isEqualTo(FilmOptions.DEFAULTS);
         assertThat(request.output()).isAbsolute().hasFileName("out");
         assertThat(request.overlay()).isTrue();
@@ -98,7 +103,7 @@ class TrackRequestTest {
 
     @Test
     void aShortFilmKeepsTracksOfHalfItsLengthUnlessTheUserSaysOtherwise() {
-        assertThat(of("output=out").settingsFor(120)).isEqualTo(TrackingSettings.DEFAULTS);
+        assertThat(of("output=out").settingsFor(120)).isEqualTo(DEFAULTS);
         assertThat(of("output=out").settingsFor(119).tracking().filter()).isEqualTo(new TrackFilter(59, 15, 0.3));
         assertThat(of("output=out min_length_sure=7").settingsFor(60).tracking().filter())
                 .isEqualTo(new TrackFilter(30, 7, 0.3));
@@ -186,6 +191,9 @@ class TrackRequestTest {
                     output=o channel=0            | counted from 1
                     output=o first_frame=9 last_frame=3 | 9 to 3
                     output=o model=../secret      | name
+                    output=o cell_length=0.9      | cell length must lie in 1 to 200 pixels, not 0.9
+                    output=o cell_length=201      | cell length must lie in 1 to 200 pixels, not 201.0
+                    output=o cell_length=NaN      | not NaN
                     """)
     void aWrongValueIsOneSentenceWithTheValue(String line, String expected) {
         assertThatThrownBy(() -> of(line))

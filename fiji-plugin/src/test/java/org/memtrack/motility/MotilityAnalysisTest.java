@@ -18,6 +18,7 @@ import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.Level;
+import org.memtrack.detection.StageDrift;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.FilmInfo;
@@ -40,7 +41,8 @@ class MotilityAnalysisTest {
     }
 
     private static TrackMotility analyse(FilmInfo film, Track track) {
-        return MotilityAnalysis.analyse(film, List.of(track), List.of()).get(0);
+        return MotilityAnalysis.analyse(film, List.of(track), new StageDrift(List.of()))
+                .get(0);
     }
 
     @Test
@@ -50,7 +52,7 @@ class MotilityAnalysisTest {
         TrackMotility motility = analyse(FILM, swimmer);
 
         assertThat(motility.trackId()).isEqualTo(4);
-        assertThat(motility.meanSpeedPixelsPerFrame()).isCloseTo(1, within(1e-9));
+        assertThat(motility.meanSpeedPixelsPerFrame().getAsDouble()).isCloseTo(1, within(1e-9));
         assertThat(motility.meanSpeed().getAsDouble()).isCloseTo(0.2475 * 60, within(1e-9));
         assertThat(motility.lagFrames()).isEqualTo(6);
         assertThat(motility.lagSpeed().getAsDouble()).isCloseTo(0.2475 * 60, within(1e-9));
@@ -98,10 +100,10 @@ class MotilityAnalysisTest {
             drift.add(new FrameDetections(frame, List.of(), 0.5 * frame, -0.25 * frame));
         }
 
-        TrackMotility motility =
-                MotilityAnalysis.analyse(FILM, List.of(carried), drift).get(0);
+        TrackMotility motility = MotilityAnalysis.analyse(FILM, List.of(carried), new StageDrift(drift))
+                .get(0);
 
-        assertThat(motility.meanSpeedPixelsPerFrame()).isCloseTo(0, within(1e-9));
+        assertThat(motility.meanSpeedPixelsPerFrame().getAsDouble()).isCloseTo(0, within(1e-9));
         assertThat(motility.motilityClass()).contains(MotilityClass.NONE);
     }
 
@@ -109,7 +111,7 @@ class MotilityAnalysisTest {
     void withoutCalibrationSpeedsArePixelsAFrameAndThereIsNoClass() {
         TrackMotility motility = analyse(UNCALIBRATED, track(61, frame -> 3.0 * frame, frame -> 9));
 
-        assertThat(motility.meanSpeedPixelsPerFrame()).isCloseTo(3, within(1e-9));
+        assertThat(motility.meanSpeedPixelsPerFrame().getAsDouble()).isCloseTo(3, within(1e-9));
         assertThat(motility.lagSpeedPixelsPerFrame().getAsDouble()).isCloseTo(3, within(1e-9));
         assertThat(motility.meanSpeed()).isEmpty();
         assertThat(motility.lagSpeed()).isEmpty();
@@ -118,10 +120,11 @@ class MotilityAnalysisTest {
     }
 
     @Test
-    void oneDetectionHasNoSpeedOverALagAndNoClass() {
+    void oneDetectionHasNoSpeedAndNoClass() {
         TrackMotility motility = analyse(FILM, track(1, frame -> 3, frame -> 9));
 
-        assertThat(motility.meanSpeedPixelsPerFrame()).isZero();
+        assertThat(motility.meanSpeedPixelsPerFrame()).isEmpty();
+        assertThat(motility.meanSpeed()).isEmpty();
         assertThat(motility.lagSpeed()).isEmpty();
         assertThat(motility.motilityClass()).isEmpty();
     }
@@ -138,7 +141,7 @@ class MotilityAnalysisTest {
                         new TrackPoint(1, detour, null),
                         new TrackPoint(2, end, new Detection(end, 1, Level.LOW))));
 
-        assertThat(analyse(FILM, track).meanSpeedPixelsPerFrame()).isCloseTo(2, within(1e-9));
+        assertThat(analyse(FILM, track).meanSpeedPixelsPerFrame().getAsDouble()).isCloseTo(2, within(1e-9));
     }
 
     @ParameterizedTest

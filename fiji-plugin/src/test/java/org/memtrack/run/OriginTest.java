@@ -83,8 +83,7 @@ class OriginTest {
                 IJ.createImage("film", "8-bit", 20, 10, 1),
                 new FilmOptions(FrameAxis.T, 1, 1, 0, OptionalDouble.empty(), OptionalDouble.empty()));
         TrackingResult result = new TrackingResult(
-                new TrackedFilm(film.info(), List.of(), List.of()),
-                List.of(),
+                TrackedFilm.of(film.info(), List.of(), List.of()),
                 0,
                 new DetectionResult(List.of(), summary, model),
                 server,

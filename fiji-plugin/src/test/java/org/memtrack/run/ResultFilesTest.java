@@ -19,6 +19,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.DetectorException;
+import org.memtrack.detection.FrameDetections;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.Film;
@@ -170,6 +171,18 @@ class ResultFilesTest {
         assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, SmallRun.film()), TRACK))
                 .isInstanceOf(DetectorException.class);
         assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void theDriftOfTheStageStandsInTheFileForTrackMate() throws Exception {
+        Film film = SmallRun.film();
+        ResultFiles files = ResultFiles.in(folder, film);
+        TrackingResult drifting = SmallRun.result(film, List.of(new FrameDetections(2, List.of(), 4.5, -7)), TRACK);
+        files.write(drifting, film, SmallRun.origin(film, drifting));
+        assertThat(files.xml()).content().contains("MEMTRACK_DRIFT_X=\"4.5\" MEMTRACK_DRIFT_Y=\"-7.0\"");
+
+        write(ResultFiles.in(folder, film), TRACK);
+        assertThat(files.xml()).content().contains("<Spot ").doesNotContain("DRIFT");
     }
 
     @Test

@@ -10,6 +10,7 @@ import org.memtrack.client.DetectionSummary;
 import org.memtrack.client.ModelInUse;
 import org.memtrack.client.ServerInfo;
 import org.memtrack.client.Thresholds;
+import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.Provenance;
 import org.memtrack.formats.TrackedFilm;
 import org.memtrack.tracking.Track;
@@ -28,9 +29,13 @@ final class SmallRun {
     }
 
     static TrackingResult result(Film film, Track... tracks) {
+        return result(film, List.of(), tracks);
+    }
+
+    /** With the frames that tell the drift of the stage. */
+    static TrackingResult result(Film film, List<FrameDetections> drift, Track... tracks) {
         return new TrackingResult(
-                TrackedFilm.of(film.info(), List.of(tracks), List.of()),
-                List.of(),
+                TrackedFilm.of(film.info(), List.of(tracks), drift),
                 3,
                 new DetectionResult(
                         List.of(),

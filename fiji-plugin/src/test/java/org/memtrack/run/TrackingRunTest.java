@@ -8,12 +8,13 @@ import org.memtrack.client.Criterion;
 import org.memtrack.client.DetectionSettings;
 import org.memtrack.client.Thresholds;
 import org.memtrack.macro.TrackOption;
+import org.memtrack.server.ServerSettings;
 import org.memtrack.tracking.SortSettings;
 
 class TrackingRunTest {
     @Test
     void whereNoTrackIsLeftTheFieldsOfTheDialogAndTheKeysAreNamed() {
-        assertThat(TrackingRun.noTracks(9, TrackingSettings.DEFAULTS.with(SortSettings.WATER)))
+        assertThat(TrackingRun.noTracks(9, of(DetectionSettings.DEFAULTS, SortSettings.WATER)))
                 .contains("30 frames", "0.3")
                 .contains(TrackOption.MIN_LENGTH.bothNames(), TrackOption.MIN_SCORE.bothNames());
     }
@@ -22,7 +23,7 @@ class TrackingRunTest {
     void maximumF1IsOfferedToThoseWhoChoseMaximumPrecision() {
         assertThat(TrackingRun.noTracks(0, detecting(Criterion.MAXIMUM_PRECISION, null)))
                 .startsWith("Nothing was detected: choose maximum F1 in " + TrackOption.CRITERION.bothNames());
-        assertThat(TrackingRun.noTracks(0, TrackingSettings.DEFAULTS))
+        assertThat(TrackingRun.noTracks(0, of(DetectionSettings.DEFAULTS, SortSettings.DEFAULTS)))
                 .contains("lower the thresholds")
                 .doesNotContain("F1");
         assertThat(TrackingRun.noTracks(0, detecting(Criterion.MAXIMUM_PRECISION, new Thresholds(0.7, 0.8, 0.9))))
@@ -32,7 +33,12 @@ class TrackingRunTest {
     }
 
     private static TrackingSettings detecting(Criterion criterion, Thresholds thresholds) {
-        return TrackingSettings.DEFAULTS.with(
-                new DetectionSettings("", "", criterion, thresholds, null, null, true, null, null));
+        return of(
+                new DetectionSettings("", "", criterion, thresholds, null, null, true, null, null),
+                SortSettings.DEFAULTS);
+    }
+
+    private static TrackingSettings of(DetectionSettings detection, SortSettings tracking) {
+        return new TrackingSettings(detection, tracking, ServerSettings.DEFAULTS, true);
     }
 }

@@ -92,6 +92,14 @@ class InterpretersTest {
     }
 
     @Test
+    void aPythonThatIsTooOldByItsNameIsNotTried() throws Exception {
+        Path least = program("named", "python3.11");
+        program("named", "python3.10");
+        Map<String, String> path = Map.of("PATH", least.getParent().toString());
+        assertThat(commands(Interpreters.onThisMachine(path, List.of()))).containsExactly(named, least);
+    }
+
+    @Test
     void aPythonOnThePathIsNotFoundASecondTime() {
         assertThat(Interpreters.onThisMachine(environment, List.of(onPath.getParent())))
                 .hasSize(1);

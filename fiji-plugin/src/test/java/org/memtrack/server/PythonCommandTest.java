@@ -23,11 +23,12 @@ class PythonCommandTest {
     @Test
     void aCommandThatDoesNotEndIsNotTriedWithAnotherPython() throws Exception {
         Path other = folder.resolve("other");
-        List<Interpreter> pythons =
-                List.of(script("import time; time.sleep(60)"), script("open(r'%s', 'w').close()".formatted(other)));
-        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofSeconds(1)))
+        List<Interpreter> pythons = List.of(
+                script("import sys, time; '-m' in sys.argv and time.sleep(60)"),
+                script("open(r'%s', 'w').close()".formatted(other)));
+        assertThatThrownBy(() -> run(pythons, Duration.ofSeconds(1)))
                 .isInstanceOf(DetectorException.class)
-                .hasMessageContaining("memtrack evaluate did not end within");
+                .hasMessageContaining("memtrack evaluate did not end within 1 s and was stopped");
         assertThat(other).doesNotExist();
     }
 
@@ -36,7 +37,7 @@ class PythonCommandTest {
         List<Interpreter> pythons = List.of(
                 new Interpreter(List.of(folder.resolve("gone").toString()), "installed by MEMTrack", false, true),
                 script("import sys; sys.exit('No module named memtrack')"));
-        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofMinutes(1)))
+        assertThatThrownBy(() -> run(pythons, Duration.ofMinutes(1)))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("No Python has MEMTrack")
                 .hasMessageContaining("gone (installed by MEMTrack) cannot be run");
@@ -48,10 +49,8 @@ class PythonCommandTest {
         Interpreter shim =
                 script("import sys; print('pyenv: command not found\\n\\nNote: see its help'); sys.exit(127)");
         Interpreter python = script("print('done')");
-        assertThat(PythonCommand.run(List.of("evaluate"), Progress.NONE, List.of(shim, python), Duration.ofMinutes(1)))
-                .containsExactly("done");
-        assertThatThrownBy(() ->
-                        PythonCommand.run(List.of("evaluate"), Progress.NONE, List.of(shim), Duration.ofMinutes(1)))
+        assertThat(run(List.of(shim, python), Duration.ofMinutes(1))).containsExactly("done");
+        assertThatThrownBy(() -> run(List.of(shim), Duration.ofMinutes(1)))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("No Python has MEMTrack")
                 .hasMessageContaining("(on the path) cannot be run: pyenv: command not found)");
@@ -63,10 +62,32 @@ class PythonCommandTest {
         List<Interpreter> pythons = List.of(
                 script("import sys; sys.exit('-m' in sys.argv and 'there is no film')"),
                 script("open(r'%s', 'w').close()".formatted(other)));
-        assertThatThrownBy(() -> PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Duration.ofMinutes(1)))
+        assertThatThrownBy(() -> run(pythons, Duration.ofMinutes(1)))
                 .isInstanceOf(DetectorException.class)
                 .hasMessage("memtrack evaluate failed: there is no film");
         assertThat(other).doesNotExist();
+    }
+
+    /** As the stub of the Windows Store may, which waits for a window. */
+    @Test
+    void aProgramThatDoesNotAnswerIsNotGivenTheCommand() throws Exception {
+        Path given = folder.resolve("given");
+        Interpreter silent = script(
+                "import sys, time; '-m' in sys.argv and open(r'%s', 'w').close(); time.sleep(60)".formatted(given));
+        assertThatThrownBy(() -> PythonCommand.run(
+                        List.of("evaluate"),
+                        Progress.NONE,
+                        List.of(silent),
+                        Duration.ofSeconds(1),
+                        Duration.ofMinutes(1)))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("No Python has MEMTrack")
+                .hasMessageContaining("(on the path) cannot be run: did not end within 1 s)");
+        assertThat(given).doesNotExist();
+    }
+
+    private static List<String> run(List<Interpreter> pythons, Duration limit) {
+        return PythonCommand.run(List.of("evaluate"), Progress.NONE, pythons, Interpreter.ANSWER_LIMIT, limit);
     }
 
     private Interpreter script(String code) throws Exception {

@@ -20,19 +20,19 @@ class EvaluationSummaryTest {
                         "IDF1": 0.55, "RMSE_px": 1.26, "truth_tracks": 11, "tracks": 9, "false_tracks": 2},
                         "films": {"truth": {"precision": 0.1}}}""")))
                 .containsExactly(
-                        "Precision 0.900, recall 0.500, F1 0.643.",
-                        "HOTA 0.410, MOTA 0.300, IDF1 0.550; error of the centres 1.3 px (root mean square).",
-                        "The truth has 11 tracks. Of the 9 compared with it, 2 are false.");
+                        "Boxes, frame by frame: precision 0.900, recall 0.500, F1 0.643; 1 is best.",
+                        "Tracks: HOTA 0.410, MOTA 0.300, IDF1 0.550; 1 is best. Error of the centres, root mean square, in pixels: 1.3.",
+                        "Tracks in the truth: 11. Compared with it: 9, of which 2 false, with fewer than half of their points right.");
     }
 
     @Test
-    void anUndefinedMeasureIsNone() throws IOException {
+    void anUndefinedMeasureIsCalledSo() throws IOException {
         assertThat(EvaluationSummary.of(json("""
                         {"all_films": {"precision": null, "recall": 0.0, "F1": 0.0, "HOTA": 0.0, "MOTA": 0.0,
                         "IDF1": 0.0, "RMSE_px": null, "truth_tracks": 3, "tracks": 0, "false_tracks": 0}}""")))
                 .contains(
-                        "Precision none, recall 0.000, F1 0.000.",
-                        "HOTA 0.000, MOTA 0.000, IDF1 0.000; error of the centres none px (root mean square).");
+                        "Boxes, frame by frame: precision undefined, recall 0.000, F1 0.000; 1 is best.",
+                        "Tracks: HOTA 0.000, MOTA 0.000, IDF1 0.000; 1 is best. Error of the centres, root mean square, in pixels: undefined.");
     }
 
     private Path json(String text) throws IOException {

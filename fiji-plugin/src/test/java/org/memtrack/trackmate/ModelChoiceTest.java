@@ -21,6 +21,14 @@ class ModelChoiceTest {
     }
 
     @Test
+    void noOtherModelStandsForADefaultThatTheServerLacks() {
+        ModelChoice choice = new ModelChoice();
+        choice.offer(List.of(OTHER));
+        assertThat(choice.name()).isEmpty();
+        assertThat(choice.card()).isEmpty();
+    }
+
+    @Test
     void aModelThatTheServerLacksStaysSelected() {
         ModelChoice choice = new ModelChoice();
         choice.select("mine", "3");

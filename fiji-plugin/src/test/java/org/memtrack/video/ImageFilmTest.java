@@ -131,7 +131,7 @@ class ImageFilmTest {
         image.getCalibration().pixelWidth = pixelWidth;
         ImageFilm film = new ImageFilm(image, FilmOptions.DEFAULTS);
         assertThat(film.info().pixelSizeMicrometres()).isEmpty();
-        assertThat(film.warnings()).singleElement().asString().contains("pixels per frame");
+        assertThat(film.warnings()).singleElement().asString().contains("pixels per frame", "Image > Properties");
     }
 
     @Test
