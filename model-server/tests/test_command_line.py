@@ -54,6 +54,17 @@ def test_neither_help_nor_the_servers_start_imports_a_computing_library() -> Non
     assert done.stdout == "[]\n"
 
 
+def test_numpy_is_imported_only_after_its_threads_were_limited() -> None:
+    code = (
+        "import os, sys; os.environ.pop('OPENBLAS_NUM_THREADS', None); import memtrack.__main__ as command; "
+        "print('numpy' in sys.modules); command.main(['models']); "
+        "print('numpy' in sys.modules, os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout.splitlines()[0] == "False"
+    assert done.stdout.splitlines()[-1] == "True 1"
+
+
 def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -> None:
     out = tmp_path / "détections.csv"
     done = memtrack("detect", film, "--out", out, "--thresholds", "0,0,0", "--nms-iou", "1", "--max-size-px", "1000")
