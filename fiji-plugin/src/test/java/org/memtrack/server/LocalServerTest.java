@@ -119,7 +119,8 @@ class LocalServerTest {
     @Test
     void withoutAnyPythonItIsToldWhatToDoFirst() {
         assertThat(ManagedServer.noPython(Optional.empty()))
-                .startsWith("No Python was found: " + CarriedPython.advice())
+                .startsWith("No Python was found: install Python 3.11 or newer")
+                .contains(CarriedPython.advice())
                 .endsWith("MEMTrack Install Python Environment.");
         assumeTrue(
                 CarriedPython.find().isPresent(), "The jar with a Python that the tests fetch is for Linux on x86_64.");
