@@ -6,6 +6,7 @@ import fiji.plugin.trackmate.action.TrackMateActionFactory;
 import ij.gui.Plot;
 import ij.measure.ResultsTable;
 import java.util.Arrays;
+import java.util.DoubleSummaryStatistics;
 import java.util.OptionalDouble;
 import java.util.stream.Collectors;
 import javax.swing.ImageIcon;
@@ -100,8 +101,25 @@ final class MotilityAction extends ModelAction {
                 "speed over %s (%s)".formatted(tracks.tracked().speedLag(), calibrated ? "um/s" : "px/frame"),
                 "tracks");
         plot.setColor("black", "lightgray");
-        plot.addHistogram(speeds);
+        addHistogram(plot, speeds);
         return plot;
+    }
+
+    /** From zero tracks on, and one bar for speeds that are all alike: ImageJ would leave both plots empty. */
+    private static void addHistogram(Plot plot, double[] speeds) {
+        DoubleSummaryStatistics range = Arrays.stream(speeds).summaryStatistics();
+        if (range.getCount() == 0) {
+            plot.setLimits(0, 1, 0, 1);
+            return;
+        }
+        double width = range.getMax() > 0 ? range.getMax() / 10 : 1;
+        if (range.getMax() - range.getMin() < width / 100) {
+            plot.addHistogram(speeds, width, range.getMin());
+            plot.setLimits(range.getMin() - width, range.getMin() + width, 0, Double.NaN);
+        } else {
+            plot.addHistogram(speeds);
+            plot.setLimits(Double.NaN, Double.NaN, 0, Double.NaN);
+        }
     }
 
     static Plot classes(ModelTracks tracks) {
