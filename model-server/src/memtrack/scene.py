@@ -21,6 +21,7 @@ from memtrack.channels import Channel, Image, shading_of, signed
 from memtrack.film import Film
 from memtrack.fixed_pattern import fixed_pattern
 from memtrack.stabilisation import FilmMotion
+from memtrack.tethered import without_tethered
 from memtrack.wobble import Slopes
 
 WINDOW_FRAMES = 900
@@ -179,7 +180,9 @@ class Scene:
             if pattern is not None:
                 self.motion = replace(self.motion, pattern=pattern)
                 background = self._background(window, report)
-        return Still.of(background, whole_numbers=self._whole_numbers)
+        still = Still.of(background, whole_numbers=self._whole_numbers)
+        freed = without_tethered(background, self.film, self.motion, window, still.noise)
+        return still if freed is background else Still.of(freed, whole_numbers=self._whole_numbers)
 
     def _background(self, window: range, report: Progress) -> Background:
         return temporal_background(self.film, self.motion, report=report, frames=window, threads=self._threads)

@@ -178,6 +178,7 @@ _SHAPING = (
     "background.py",
     "fixed_pattern.py",
     "wobble.py",
+    "tethered.py",
     "scene.py",
     "channels.py",
     "motion.py",

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bacteria held in one place, where they wiggle: the temporal median shows them, so they are taken out of it.
+
+A bacterium tethered to the glass, or one that trembles in a pore, hardly deviates from a median that holds it. Debris
+is told from it by how it moves: not at all, or in the rhythm of the medium, which shakes all that lies in it alike.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from jaxtyping import Bool, Float, Float32, Int64
+
+from memtrack.background import Background, aligned_frame, split_drift
+from memtrack.film import Film
+from memtrack.stabilisation import FilmMotion
+
+SAMPLES = 48
+LEAST_STEPS = 6
+"""Fewer do not tell how far a spot typically moves."""
+CONTRAST, CLEARNESS = 3.0, 4.0
+"""A spot must stand out so many times more than the noise, and than what is around it: not so in most gels, where grain
+is as large as a bacterium and no one knows what is behind it."""
+MOST = 1000
+"""Spots that are looked at, the strongest ones."""
+REACH_PX, WIDTH_PX = 7, 4.0
+"""Half the edge of the patch around a spot, and the width (sigma) of its Gaussian weights."""
+SEPARATE_PX = 10
+"""Spots nearer than this, along x and y, may be of one bacterium."""
+LOUDEST = 20.0
+"""Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
+OWN_SHARE = 0.75
+"""Of a spot's typical step, what is left without the common rhythm."""
+SIGNIFICANT = 2.5
+"""Times its error, or what the quieter spots of the film show, if they seem to move by up to `QUIET` errors."""
+QUIET = 2.0
+LEAST_STEP_PX = 0.11
+"""Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Spots:
+    """Places of a background where something as small as a bacterium stands out, the strongest first."""
+
+    x: Int64[np.ndarray, " spot"]
+    y: Int64[np.ndarray, " spot"]
+
+    def patches(
+        self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)
+    ) -> tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]:
+        """What is around each spot in an image in which the background's corner lies at `place` (x, y), and whether the
+        image shows all of it."""
+        h, w = image.shape
+        x, y = self.x + place[0], self.y + place[1]
+        whole = (x >= REACH_PX) & (x < w - REACH_PX) & (y >= REACH_PX) & (y < h - REACH_PX)
+        across = np.arange(-REACH_PX, REACH_PX + 1)
+        rows, columns = np.clip(y[:, None] + across, 0, h - 1), np.clip(x[:, None] + across, 0, w - 1)
+        return image[rows[:, :, None], columns[:, None, :]], whole
+
+    def near(self) -> Bool[np.ndarray, "spot spot"]:
+        """Which may be of the same bacterium; each is near itself."""
+        return np.maximum(np.abs(self.x[:, None] - self.x), np.abs(self.y[:, None] - self.y)) < SEPARATE_PX
+
+
+def without_tethered(background: Background, film: Film, motion: FilmMotion, frames: range, noise: float) -> Background:
+    """`background` with what surrounds them in the place of bacteria that wiggle; the same object if there are none.
+
+    Args:
+        film, motion: frames as the camera took them, and how the scene stands in them.
+        frames: consecutive ones of the film, those the background is made of.
+        noise: what a deviation must exceed, in grey levels.
+    """
+    spots = _spots(background.median, noise)
+    if not len(spots.x):
+        return background
+    steps, error = _steps(spots, background, film, motion, frames, noise)
+    # The halo of a bacterium moves with it, that of debris beside it does not: only the strongest spot is asked.
+    held = _moves_by_itself(spots, steps, error) & ~np.tril(spots.near(), -1).any(axis=1)
+    if not held.any():
+        return background
+    return replace(background, median=_filled(background, spots.x[held], spots.y[held]))
+
+
+def _spots(median: Float32[np.ndarray, "h w"], noise: float) -> _Spots:
+    band = cv2.GaussianBlur(median, (0, 0), 1.2) - cv2.GaussianBlur(median, (0, 0), 6)
+    height = np.abs(band)
+    # A bright spot, cut, does not count as its own surroundings.
+    cut = np.minimum(height, 8 * float(np.median(height)) + 1e-6)
+    around = np.sqrt(cv2.GaussianBlur(cut * cut, (0, 0), 12))
+    peak = cv2.dilate(height, np.ones((7, 7), np.uint8)) == height
+    y, x = np.nonzero(peak & (height > CONTRAST * noise) & (height > CLEARNESS * around))
+    strongest = np.argsort(-height[y, x], kind="stable")[:MOST]
+    return _Spots(x[strongest], y[strongest])
+
+
+def _steps(
+    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, noise: float
+) -> tuple[Float[np.ndarray, "spot axis step"], Float[np.ndarray, "spot axis"]]:
+    """How far each spot moves from one sample to the next (Lucas and Kanade, 1981), in pixels, NaN where it is not
+    seen, and the standard deviation the noise adds to it."""
+    smooth = cv2.GaussianBlur(background.median, (0, 0), 0.7)
+    slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
+    slope = np.stack(slopes, axis=1).reshape(len(spots.x), 2, -1)
+    across = np.square(np.arange(-REACH_PX, REACH_PX + 1))
+    weighted = slope * np.exp(-(across[:, None] + across) / (2 * WIDTH_PX**2), dtype=np.float32).ravel()
+    power = weighted @ slope.transpose(0, 2, 1)
+    # A long bacterium has no slope along its axis.
+    power += 0.05 * np.trace(power, axis1=1, axis2=2)[:, None, None] * np.eye(2)
+    solved = np.linalg.solve(power, weighted)
+    error = np.sqrt(2 * np.square(solved).sum(axis=2)) * noise
+
+    chosen = np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int))
+    left, top = background.origin
+    steps, before = [], None
+    for i in (int(i) for i in chosen if i not in motion.unlit):
+        x, y = split_drift(motion.drift[i])[0]
+        now = spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
+        if before is not None:
+            change = (before[0] - now[0]).reshape(len(spots.x), -1, 1)
+            steps.append(np.where((before[1] & now[1])[:, None], (solved @ change)[:, :, 0], np.nan))
+        before = now
+    return np.stack(steps, axis=2) if steps else np.empty((len(spots.x), 2, 0)), error
+
+
+def _moves_by_itself(
+    spots: _Spots, steps: Float[np.ndarray, "spot axis step"], error: Float[np.ndarray, "spot axis"]
+) -> Bool[np.ndarray, " spot"]:
+    """Which spots move, and in no rhythm that others have too."""
+    seen = ~np.isnan(steps[:, 0])
+    held = seen.sum(axis=1) >= LEAST_STEPS
+    if not held.any():
+        return held
+    rows = np.clip(np.nan_to_num(steps / error[:, :, None]), -LOUDEST, LOUDEST)
+    rhythm = _rhythm_of_others(spots, rows)
+    rest = rows - (rows @ rhythm[:, :, None]) * rhythm[:, None, :]
+    own, whole = _typical(rest, seen), _typical(rows, seen)
+    quiet = np.clip(np.quantile(own[held], 0.25), 1, QUIET)
+    far = own * np.sqrt(np.square(error).mean(axis=1)) > LEAST_STEP_PX
+    return held & far & (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * whole)
+
+
+def _rhythm_of_others(spots: _Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
+    """For each spot the course in time, of length 1, that explains most of the steps of those apart from it."""
+    count = rows.shape[2]
+    length = np.linalg.norm(rows, axis=2, keepdims=True)
+    even = rows * np.minimum(1, 3 * np.sqrt(count) / (length + 1e-9))  # so that no single spot is the rhythm
+    products = even.transpose(0, 2, 1) @ even
+    own = (spots.near().astype(float) @ products.reshape(len(products), -1)).reshape(products.shape)
+    courses: np.ndarray = np.linalg.eigh(products.sum(axis=0) - own)[1][:, :, -1]
+    return courses
+
+
+def _typical(rows: Float[np.ndarray, "spot axis step"], seen: Bool[np.ndarray, "spot step"]) -> np.ndarray:
+    """Standard deviation told from the median of the absolute values, since others pass now and then; of both axes."""
+    known = np.where(seen[:, None], rows, np.nan)
+    known = np.abs(known - _median(known))
+    return np.sqrt(np.square(1.4826 * _median(known)[:, :, 0]).mean(axis=1))
+
+
+def _median(known: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot axis 1"]:
+    """Of what is not NaN; 0 where nothing is."""
+    known = np.where(np.isnan(known).all(axis=2, keepdims=True), 0, known)
+    return np.asarray(np.nanmedian(known, axis=2, keepdims=True))
+
+
+def _filled(
+    background: Background, x: Int64[np.ndarray, " held"], y: Int64[np.ndarray, " held"]
+) -> Float32[np.ndarray, "h w"]:
+    """The median with the mean of what surrounds it in place of each of these spots."""
+    median = background.median
+    # Places that no frame shows have no spread; nor has a film without noise, where these count all the same.
+    free = np.where(background.spread > 0, np.float32(1), np.float32(1e-3))
+    for centre in zip(x.tolist(), y.tolist(), strict=True):
+        cv2.circle(free, centre, REACH_PX, 0.0, -1)
+    around = cv2.GaussianBlur(median * free, (0, 0), 5) / np.maximum(cv2.GaussianBlur(free, (0, 0), 5), 1e-6)
+    kept = cv2.GaussianBlur((free > 0).astype(np.float32), (0, 0), 1)
+    return np.asarray(median * kept + around * (1 - kept), np.float32)

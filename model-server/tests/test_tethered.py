@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import cv2
+import numpy as np
+import pytest
+
+from memtrack.background import Background, temporal_background
+from memtrack.film import ArrayFilm
+from memtrack.scene import Scene
+from memtrack.stabilisation import FilmMotion, measure_motion
+from memtrack.tethered import without_tethered
+
+NOISE = 2.0
+HELD, DEBRIS = (60, 50), ((140, 90), (40, 110), (150, 30))
+FRAMES = 80
+
+
+def film_of(
+    *,
+    wiggle: float,
+    shake: float = 0.0,
+    drift: float = 0.0,
+    swimmers: int = 0,
+    grain: float = 0.0,
+    frames: int = FRAMES,
+) -> ArrayFilm:
+    """Water with a bacterium that wiggles in its place by `wiggle` px, debris that `shake` moves in one rhythm, a stage
+    that drifts, and swimmers that pass over the debris."""
+    rng = np.random.default_rng(3)
+    h, w = 140, 200
+    texture = cv2.GaussianBlur(rng.normal(0, 1, (h, w + 60)).astype(np.float32), (0, 0), 3) * 10 * grain
+    y, x = np.mgrid[:h, :w].astype(np.float32)
+    rhythm, stacked = rng.normal(0, 1, frames), []
+    for i in range(frames):
+        left = round(drift * i)
+        image = 120 + texture[:, 60 - left : 60 - left + w]
+        places = [(np.add(HELD, rng.normal(0, wiggle, 2)), 40.0)]
+        places += [(np.add(place, [shake * rhythm[i], 0.5 * shake * rhythm[i]]), 40.0) for place in DEBRIS]
+        places += [(np.array([(k * 40 + 3 * i) % 260 - 30, DEBRIS[k % 3][1]]), 60.0) for k in range(swimmers)]
+        for (at_x, at_y), contrast in places:
+            image = image + contrast * np.exp(-((x - at_x - left) ** 2 / 8 + (y - at_y) ** 2 / 5))
+        stacked.append(np.clip(np.rint(image + rng.normal(0, NOISE, (h, w))), 0, 255).astype(np.uint8))
+    return ArrayFilm(np.stack(stacked))
+
+
+def told(film: ArrayFilm) -> tuple[Background, Background, FilmMotion]:
+    """The background before and after, and the film's motion."""
+    motion = measure_motion(film, stabilise=True, report=lambda done, total: None)
+    before = temporal_background(film, motion, report=lambda done, total: None)
+    return before, without_tethered(before, film, motion, range(film.frame_count), NOISE), motion
+
+
+def heights(background: Background) -> list[float]:
+    """How far the bacterium and the pieces of debris stand out of a background."""
+    left, top = background.origin
+    return [float(background.median[y - top, x - left]) - 120 for x, y in (HELD, *DEBRIS)]
+
+
+@pytest.mark.parametrize("wiggle", [0.3, 0.6, 1.0])
+def test_a_bacterium_that_wiggles_is_taken_out_and_debris_is_not(wiggle: float) -> None:
+    before, after, _ = told(film_of(wiggle=wiggle))
+    assert min(heights(before)) > 25
+    assert abs(heights(after)[0]) < 3
+    np.testing.assert_array_equal(heights(after)[1:], heights(before)[1:])
+    np.testing.assert_array_equal(after.spread, before.spread)
+
+
+def test_where_all_stands_still_the_background_is_the_same() -> None:
+    before, after, _ = told(film_of(wiggle=0.0))
+    assert after is before
+
+
+def test_what_the_medium_shakes_in_one_rhythm_is_part_of_it() -> None:
+    shaken, after, _ = told(film_of(wiggle=0.6, shake=0.6))
+    np.testing.assert_array_equal(heights(after)[1:], heights(shaken)[1:])
+    assert abs(heights(after)[0]) < 3
+
+
+def test_swimmers_that_pass_over_debris_do_not_make_it_move() -> None:
+    before, after, _ = told(film_of(wiggle=0.0, swimmers=5))
+    assert after is before
+
+
+def test_it_is_found_on_a_stage_that_drifts() -> None:
+    before, after, motion = told(film_of(wiggle=0.6, drift=0.3, grain=1.0))
+    assert motion.drift[-1, 0] == pytest.approx(0.3 * FRAMES, abs=2)
+    assert heights(before)[0] > 25
+    assert abs(heights(after)[0]) < 5
+    np.testing.assert_allclose(heights(after)[1:], heights(before)[1:])
+
+
+def test_grain_as_large_as_bacteria_hides_what_is_behind_one() -> None:
+    before, after, _ = told(film_of(wiggle=0.6, grain=30.0))
+    assert after is before
+
+
+def test_a_few_frames_do_not_tell() -> None:
+    before, after, _ = told(film_of(wiggle=0.6, frames=6))
+    assert after is before
+
+
+def test_the_scene_a_frame_is_compared_with_is_free_of_them() -> None:
+    film = film_of(wiggle=0.6)
+    motion = measure_motion(film, stabilise=True, report=lambda done, total: None)
+    scene = Scene(film, motion, report=lambda done, total: None)
+    x, y = HELD
+    assert abs(float(scene.median(0)[y, x]) - 120) < 3
