@@ -91,6 +91,11 @@ class Still:
         slopes = Slopes.of(median, noise)
         return cls(background, shading, spread, slopes, float(median.mean()), noise, float(np.hypot(texture, noise)))
 
+    def with_median_of(self, background: Background) -> Still:
+        """Of the same scene, whose noise and texture it keeps, but with another median to compare frames with."""
+        median = background.median
+        return replace(self, background=background, shading=shading_of(median), slopes=Slopes.of(median, self.noise))
+
 
 class Scene:
     """The still scene at any frame of a film, on the grid of its aligned frame.
@@ -182,7 +187,7 @@ class Scene:
                 background = self._background(window, report)
         still = Still.of(background, whole_numbers=self._whole_numbers)
         freed = without_tethered(background, self.film, self.motion, window, still.noise)
-        return still if freed is background else Still.of(freed, whole_numbers=self._whole_numbers)
+        return still if freed is background else still.with_median_of(freed)
 
     def _background(self, window: range, report: Progress) -> Background:
         return temporal_background(self.film, self.motion, report=report, frames=window, threads=self._threads)

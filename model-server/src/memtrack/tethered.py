@@ -23,11 +23,13 @@ LEAST_STEPS = 6
 CONTRAST, CLEARNESS = 3.0, 4.0
 """A spot must stand out so many times more than the noise, and than what is around it: not so in most gels, where grain
 is as large as a bacterium and no one knows what is behind it."""
+STEADY = 0.5
+"""It must stand out more than this share of what varies there, or it is what a body left that lay there for a while."""
 MOST = 1000
 """Spots that are looked at, the strongest ones."""
 REACH_PX, WIDTH_PX = 7, 4.0
 """Half the edge of the patch around a spot, and the width (sigma) of its Gaussian weights."""
-SEPARATE_PX = 10
+SEPARATE_PX = 13
 """Spots nearer than this, along x and y, may be of one bacterium."""
 LOUDEST = 20.0
 """Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
@@ -35,7 +37,7 @@ OWN_SHARE = 0.75
 """Of a spot's typical step, what is left without the common rhythm."""
 SIGNIFICANT = 2.5
 """Times its error, or what the quieter spots of the film show, if they seem to move by up to `QUIET` errors."""
-QUIET = 2.0
+QUIET = 2.5
 LEAST_STEP_PX = 0.11
 """Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
 
@@ -72,7 +74,7 @@ def without_tethered(background: Background, film: Film, motion: FilmMotion, fra
         frames: consecutive ones of the film, those the background is made of.
         noise: what a deviation must exceed, in grey levels.
     """
-    spots = _spots(background.median, noise)
+    spots = _spots(background, noise)
     if not len(spots.x):
         return background
     steps, error = _steps(spots, background, film, motion, frames, noise)
@@ -83,14 +85,16 @@ def without_tethered(background: Background, film: Film, motion: FilmMotion, fra
     return replace(background, median=_filled(background, spots.x[held], spots.y[held]))
 
 
-def _spots(median: Float32[np.ndarray, "h w"], noise: float) -> _Spots:
+def _spots(background: Background, noise: float) -> _Spots:
+    median = background.median
     band = cv2.GaussianBlur(median, (0, 0), 1.2) - cv2.GaussianBlur(median, (0, 0), 6)
     height = np.abs(band)
     # A bright spot, cut, does not count as its own surroundings.
     cut = np.minimum(height, 8 * float(np.median(height)) + 1e-6)
     around = np.sqrt(cv2.GaussianBlur(cut * cut, (0, 0), 12))
     peak = cv2.dilate(height, np.ones((7, 7), np.uint8)) == height
-    y, x = np.nonzero(peak & (height > CONTRAST * noise) & (height > CLEARNESS * around))
+    least = np.maximum(np.maximum(CLEARNESS * around, STEADY * background.spread), CONTRAST * noise)
+    y, x = np.nonzero(peak & (height > least))
     strongest = np.argsort(-height[y, x], kind="stable")[:MOST]
     return _Spots(x[strongest], y[strongest])
 
