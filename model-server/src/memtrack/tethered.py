@@ -37,7 +37,10 @@ OWN_SHARE = 0.75
 """Of a spot's typical step, what is left without the common rhythm."""
 SIGNIFICANT = 2.5
 """Times its error, or what the quieter spots of the film show, if they seem to move by up to `QUIET` errors."""
-QUIET = 2.5
+QUIET = 4.0
+ALIKE = 0.15
+"""Least share of what changes around a spot, but for the noise, that its steps explain: digits of a clock, and debris
+in a packed video, change without a move."""
 LEAST_STEP_PX = 0.11
 """Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
 
@@ -66,6 +69,19 @@ class _Spots:
         return np.maximum(np.abs(self.x[:, None] - self.x), np.abs(self.y[:, None] - self.y)) < SEPARATE_PX
 
 
+@dataclass(frozen=True, slots=True)
+class _Moves:
+    """How each spot moves from one sample to the next.
+
+    steps: in pixels, NaN where it is not seen. error: standard deviation that the noise adds to them. explained: share
+    of what changes around the spot, typically and but for the noise.
+    """
+
+    steps: Float[np.ndarray, "spot axis step"]
+    error: Float[np.ndarray, "spot axis"]
+    explained: Float[np.ndarray, " spot"]
+
+
 def without_tethered(background: Background, film: Film, motion: FilmMotion, frames: range, noise: float) -> Background:
     """`background` with what surrounds them in the place of bacteria that wiggle; the same object if there are none.
 
@@ -77,9 +93,9 @@ def without_tethered(background: Background, film: Film, motion: FilmMotion, fra
     spots = _spots(background, noise)
     if not len(spots.x):
         return background
-    steps, error = _steps(spots, background, film, motion, frames, noise)
+    moves = _moves(spots, background, film, motion, frames, noise)
     # The halo of a bacterium moves with it, that of debris beside it does not: only the strongest spot is asked.
-    held = _moves_by_itself(spots, steps, error) & ~np.tril(spots.near(), -1).any(axis=1)
+    held = _moves_by_itself(spots, moves) & ~np.tril(spots.near(), -1).any(axis=1)
     if not held.any():
         return background
     return replace(background, median=_filled(background, spots.x[held], spots.y[held]))
@@ -99,16 +115,16 @@ def _spots(background: Background, noise: float) -> _Spots:
     return _Spots(x[strongest], y[strongest])
 
 
-def _steps(
+def _moves(
     spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, noise: float
-) -> tuple[Float[np.ndarray, "spot axis step"], Float[np.ndarray, "spot axis"]]:
-    """How far each spot moves from one sample to the next (Lucas and Kanade, 1981), in pixels, NaN where it is not
-    seen, and the standard deviation the noise adds to it."""
+) -> _Moves:
+    """By the method of Lucas and Kanade (1981), between frames spread evenly over `frames`."""
     smooth = cv2.GaussianBlur(background.median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
     slope = np.stack(slopes, axis=1).reshape(len(spots.x), 2, -1)
     across = np.square(np.arange(-REACH_PX, REACH_PX + 1))
-    weighted = slope * np.exp(-(across[:, None] + across) / (2 * WIDTH_PX**2), dtype=np.float32).ravel()
+    weight = np.exp(-(across[:, None] + across) / (2 * WIDTH_PX**2), dtype=np.float32).ravel()
+    weighted = slope * weight
     power = weighted @ slope.transpose(0, 2, 1)
     # A long bacterium has no slope along its axis.
     power += 0.05 * np.trace(power, axis1=1, axis2=2)[:, None, None] * np.eye(2)
@@ -117,32 +133,40 @@ def _steps(
 
     chosen = np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int))
     left, top = background.origin
-    steps, before = [], None
+    steps, changes, before = [], [], None
     for i in (int(i) for i in chosen if i not in motion.unlit):
         x, y = split_drift(motion.drift[i])[0]
         now = spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
         if before is not None:
-            change = (before[0] - now[0]).reshape(len(spots.x), -1, 1)
-            steps.append(np.where((before[1] & now[1])[:, None], (solved @ change)[:, :, 0], np.nan))
+            change = (before[0] - now[0]).reshape(len(spots.x), -1)
+            change -= (change @ weight / weight.sum())[:, None]
+            step = (solved @ change[:, :, None])[:, :, 0]
+            rest = change - (step[:, :, None] * slope).sum(axis=1)
+            seen = (before[1] & now[1])[:, None]
+            steps.append(np.where(seen, step, np.nan))
+            changes.append(np.where(seen, np.stack([np.square(d) @ weight for d in (change, rest)], axis=1), np.nan))
         before = now
-    return np.stack(steps, axis=2) if steps else np.empty((len(spots.x), 2, 0)), error
+    if not steps:
+        return _Moves(np.empty((len(spots.x), 2, 0)), error, np.zeros(len(spots.x)))
+    whole, left_over = _median(np.stack(changes, axis=2))[:, :, 0].T
+    but_noise = np.maximum(whole - 2 * noise**2 * weight.sum(), 0.2 * whole)
+    return _Moves(np.stack(steps, axis=2), error, (whole - left_over) / np.maximum(but_noise, 1e-12))
 
 
-def _moves_by_itself(
-    spots: _Spots, steps: Float[np.ndarray, "spot axis step"], error: Float[np.ndarray, "spot axis"]
-) -> Bool[np.ndarray, " spot"]:
+def _moves_by_itself(spots: _Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
     """Which spots move, and in no rhythm that others have too."""
-    seen = ~np.isnan(steps[:, 0])
+    seen = ~np.isnan(moves.steps[:, 0])
     held = seen.sum(axis=1) >= LEAST_STEPS
     if not held.any():
         return held
-    rows = np.clip(np.nan_to_num(steps / error[:, :, None]), -LOUDEST, LOUDEST)
+    rows = np.clip(np.nan_to_num(moves.steps / moves.error[:, :, None]), -LOUDEST, LOUDEST)
     rhythm = _rhythm_of_others(spots, rows)
     rest = rows - (rows @ rhythm[:, :, None]) * rhythm[:, None, :]
     own, whole = _typical(rest, seen), _typical(rows, seen)
     quiet = np.clip(np.quantile(own[held], 0.25), 1, QUIET)
-    far = own * np.sqrt(np.square(error).mean(axis=1)) > LEAST_STEP_PX
-    return held & far & (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * whole)
+    far = own * np.sqrt(np.square(moves.error).mean(axis=1)) > LEAST_STEP_PX
+    by_itself = (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * whole)
+    return held & far & by_itself & (moves.explained > ALIKE)
 
 
 def _rhythm_of_others(spots: _Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
