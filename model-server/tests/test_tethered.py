@@ -12,6 +12,7 @@ from memtrack.tethered import without_tethered
 NOISE = 2.0
 HELD, DEBRIS = (60, 50), ((140, 90), (40, 110), (150, 30))
 FRAMES = 80
+FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
 def film_of(
@@ -20,11 +21,12 @@ def film_of(
     shake: float = 0.0,
     drift: float = 0.0,
     swimmers: int = 0,
+    clock: bool = False,
     grain: float = 0.0,
     frames: int = FRAMES,
 ) -> ArrayFilm:
     """Water with a bacterium that wiggles in its place by `wiggle` px, debris that `shake` moves in one rhythm, a stage
-    that drifts, and swimmers that pass over the debris."""
+    that drifts, swimmers that pass over the debris, and digits that run in place of some of it."""
     rng = np.random.default_rng(3)
     h, w = 140, 200
     texture = cv2.GaussianBlur(rng.normal(0, 1, (h, w + 60)).astype(np.float32), (0, 0), 3) * 10 * grain
@@ -34,10 +36,15 @@ def film_of(
         left = round(drift * i)
         image = 120 + texture[:, 60 - left : 60 - left + w]
         places = [(np.add(HELD, rng.normal(0, wiggle, 2)), 40.0)]
-        places += [(np.add(place, [shake * rhythm[i], 0.5 * shake * rhythm[i]]), 40.0) for place in DEBRIS]
+        aside = np.multiply(shake * rhythm[i], [1, 0.5])
+        places += [(place + aside, 40.0) for place in (DEBRIS[1:] if clock else DEBRIS)]
         places += [(np.array([(k * 40 + 3 * i) % 260 - 30, DEBRIS[k % 3][1]]), 60.0) for k in range(swimmers)]
         for (at_x, at_y), contrast in places:
             image = image + contrast * np.exp(-((x - at_x - left) ** 2 / 8 + (y - at_y) ** 2 / 5))
+        if clock:
+            digit = np.zeros((h, w), np.uint8)
+            cv2.putText(digit, str(rng.integers(10)), np.add(DEBRIS[0], (-4, 5)), FONT, 0.4, 60, 1, cv2.LINE_AA)
+            image = image + digit
         stacked.append(np.clip(np.rint(image + rng.normal(0, NOISE, (h, w))), 0, 255).astype(np.uint8))
     return ArrayFilm(np.stack(stacked))
 
@@ -75,8 +82,18 @@ def test_what_the_medium_shakes_in_one_rhythm_is_part_of_it() -> None:
     assert abs(heights(after)[0]) < 3
 
 
+def test_what_it_shakes_by_more_than_a_pixel_is_so_too() -> None:
+    before, after, _ = told(film_of(wiggle=0.0, shake=2.0))
+    assert after is before
+
+
 def test_swimmers_that_pass_over_debris_do_not_make_it_move() -> None:
     before, after, _ = told(film_of(wiggle=0.0, swimmers=5))
+    assert after is before
+
+
+def test_digits_of_a_clock_change_and_do_not_move() -> None:
+    before, after, _ = told(film_of(wiggle=0.0, clock=True))
     assert after is before
 
 

@@ -7,7 +7,9 @@ is told from it by how it moves: not at all, or in the rhythm of the medium, whi
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -18,6 +20,7 @@ from memtrack.film import Film
 from memtrack.stabilisation import FilmMotion
 
 SAMPLES = 48
+"""Frames, spread evenly over those of the background."""
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
 CONTRAST, CLEARNESS = 3.0, 4.0
@@ -118,7 +121,7 @@ def _spots(background: Background, noise: float) -> _Spots:
 def _moves(
     spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, noise: float
 ) -> _Moves:
-    """By the method of Lucas and Kanade (1981), between frames spread evenly over `frames`."""
+    """By the method of Lucas and Kanade (1981)."""
     smooth = cv2.GaussianBlur(background.median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
     slope = np.stack(slopes, axis=1).reshape(len(spots.x), 2, -1)
@@ -127,30 +130,35 @@ def _moves(
     weighted = slope * weight
     power = weighted @ slope.transpose(0, 2, 1)
     # A long bacterium has no slope along its axis.
-    power += 0.05 * np.trace(power, axis1=1, axis2=2)[:, None, None] * np.eye(2)
+    power += (0.05 * np.trace(power, axis1=1, axis2=2)[:, None, None] + 1e-9) * np.eye(2)
     solved = np.linalg.solve(power, weighted)
-    error = np.sqrt(2 * np.square(solved).sum(axis=2)) * noise
 
-    chosen = np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int))
-    left, top = background.origin
-    steps, changes, before = [], [], None
-    for i in (int(i) for i in chosen if i not in motion.unlit):
-        x, y = split_drift(motion.drift[i])[0]
-        now = spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
-        if before is not None:
-            change = (before[0] - now[0]).reshape(len(spots.x), -1)
-            change -= (change @ weight / weight.sum())[:, None]
-            step = (solved @ change[:, :, None])[:, :, 0]
-            rest = change - (step[:, :, None] * slope).sum(axis=1)
-            seen = (before[1] & now[1])[:, None]
-            steps.append(np.where(seen, step, np.nan))
-            changes.append(np.where(seen, np.stack([np.square(d) @ weight for d in (change, rest)], axis=1), np.nan))
-        before = now
+    steps, changes = [], []
+    for (before, known), (now, still_known) in pairwise(_samples(spots, background, film, motion, frames)):
+        change = (before - now).reshape(len(spots.x), -1)
+        change -= (change @ weight / weight.sum())[:, None]
+        step = (solved @ change[:, :, None])[:, :, 0]
+        rest = change - (step[:, :, None] * slope).sum(axis=1)
+        seen = (known & still_known)[:, None]
+        steps.append(np.where(seen, step, np.nan))
+        changes.append(np.where(seen, np.stack([np.square(d) @ weight for d in (change, rest)], axis=1), np.nan))
     if not steps:
-        return _Moves(np.empty((len(spots.x), 2, 0)), error, np.zeros(len(spots.x)))
-    whole, left_over = _median(np.stack(changes, axis=2))[:, :, 0].T
+        return _Moves(np.empty((len(spots.x), 2, 0)), np.ones((len(spots.x), 2)), np.zeros(len(spots.x)))
+    error = np.sqrt(2 * np.square(solved).sum(axis=2)) * noise
+    whole, unexplained = _median(np.stack(changes, axis=2))[:, :, 0].T
     but_noise = np.maximum(whole - 2 * noise**2 * weight.sum(), 0.2 * whole)
-    return _Moves(np.stack(steps, axis=2), error, (whole - left_over) / np.maximum(but_noise, 1e-12))
+    return _Moves(np.stack(steps, axis=2), error, (whole - unexplained) / np.maximum(but_noise, 1e-12))
+
+
+def _samples(
+    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range
+) -> Iterator[tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]]:
+    """What is around each spot in some of the frames, and whether these show all of it."""
+    left, top = background.origin
+    for i in np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int)).tolist():
+        if i not in motion.unlit:
+            x, y = split_drift(motion.drift[i])[0]
+            yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
 
 
 def _moves_by_itself(spots: _Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
