@@ -43,7 +43,9 @@ def film_of(
             image = image + contrast * np.exp(-((x - at_x - left) ** 2 / 8 + (y - at_y) ** 2 / 5))
         if clock:
             digit = np.zeros((h, w), np.uint8)
-            cv2.putText(digit, str(rng.integers(10)), np.add(DEBRIS[0], (-4, 5)), FONT, 0.4, 60, 1, cv2.LINE_AA)
+            cv2.putText(
+                digit, str(rng.integers(10)), (DEBRIS[0][0] - 4, DEBRIS[0][1] + 5), FONT, 0.4, 60, 1, cv2.LINE_AA
+            )
             image = image + digit
         stacked.append(np.clip(np.rint(image + rng.normal(0, NOISE, (h, w))), 0, 255).astype(np.uint8))
     return ArrayFilm(np.stack(stacked))

@@ -23,7 +23,7 @@ SAMPLES = 48
 """Frames, spread evenly over those of the background."""
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
-CONTRAST, CLEARNESS = 3.0, 4.0
+CONTRAST, CLEARNESS = 3.0, 5.0
 """A spot must stand out so many times more than the noise, and than what is around it: not so in most gels, where grain
 is as large as a bacterium and no one knows what is behind it."""
 STEADY = 0.5
