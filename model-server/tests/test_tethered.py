@@ -7,7 +7,7 @@ from memtrack.background import Background, temporal_background
 from memtrack.film import ArrayFilm
 from memtrack.scene import Scene
 from memtrack.stabilisation import FilmMotion, measure_motion
-from memtrack.tethered import without_tethered
+from memtrack.tethered import SAMPLES, without_tethered
 
 NOISE = 2.0
 HELD, DEBRIS = (60, 50), ((140, 90), (40, 110), (150, 30))
@@ -21,6 +21,7 @@ def film_of(
     shake: float = 0.0,
     drift: float = 0.0,
     swimmers: int = 0,
+    debris: bool = True,
     clock: bool = False,
     grain: float = 0.0,
     frames: int = FRAMES,
@@ -37,7 +38,7 @@ def film_of(
         image = 120 + texture[:, 60 - left : 60 - left + w]
         places = [(np.add(HELD, rng.normal(0, wiggle, 2)), 40.0)]
         aside = np.multiply(shake * rhythm[i], [1, 0.5])
-        places += [(place + aside, 40.0) for place in (DEBRIS[1:] if clock else DEBRIS)]
+        places += [(place + aside, 40.0) for place in DEBRIS[clock:] if debris]
         places += [(np.array([(k * 40 + 3 * i) % 260 - 30, DEBRIS[k % 3][1]]), 60.0) for k in range(swimmers)]
         for (at_x, at_y), contrast in places:
             image = image + contrast * np.exp(-((x - at_x - left) ** 2 / 8 + (y - at_y) ** 2 / 5))
@@ -51,11 +52,11 @@ def film_of(
     return ArrayFilm(np.stack(stacked))
 
 
-def told(film: ArrayFilm) -> tuple[Background, Background, FilmMotion]:
+def told(film: ArrayFilm, noise: float = NOISE) -> tuple[Background, Background, FilmMotion]:
     """The background before and after, and the film's motion."""
     motion = measure_motion(film, stabilise=True, report=lambda done, total: None)
     before = temporal_background(film, motion, report=lambda done, total: None)
-    return before, without_tethered(before, film, motion, range(film.frame_count), NOISE), motion
+    return before, without_tethered(before, film, motion, range(film.frame_count), noise), motion
 
 
 def heights(background: Background) -> list[float]:
@@ -110,6 +111,25 @@ def test_it_is_found_on_a_stage_that_drifts() -> None:
 def test_grain_as_large_as_bacteria_hides_what_is_behind_one() -> None:
     before, after, _ = told(film_of(wiggle=0.6, grain=30.0))
     assert after is before
+
+
+def test_one_that_is_alone_may_be_shaken_by_the_stage() -> None:
+    before, after, _ = told(film_of(wiggle=0.6, debris=False))
+    assert after is before
+
+
+def test_films_of_floating_numbers_are_treated_alike() -> None:
+    film = film_of(wiggle=0.6)
+    whole, part = told(film)[1], told(ArrayFilm(film.frames.astype(np.float32) / 255), NOISE / 255)[1]
+    np.testing.assert_allclose(part.median * 255, whole.median, atol=0.1)
+
+
+def test_every_frame_that_is_read_is_told() -> None:
+    film = film_of(wiggle=0.6)
+    before, _, motion = told(film)
+    calls: list[None] = []
+    without_tethered(before, film, motion, range(film.frame_count), NOISE, lambda: calls.append(None))
+    assert len(calls) == SAMPLES
 
 
 def test_a_few_frames_do_not_tell() -> None:

@@ -186,7 +186,7 @@ class Scene:
                 self.motion = replace(self.motion, pattern=pattern)
                 background = self._background(window, report)
         still = Still.of(background, whole_numbers=self._whole_numbers)
-        freed = without_tethered(background, self.film, self.motion, window, still.noise)
+        freed = without_tethered(background, self.film, self.motion, window, still.noise, lambda: report(1, 1))
         return still if freed is background else still.with_median_of(freed)
 
     def _background(self, window: range, report: Progress) -> Background:

@@ -2,12 +2,15 @@
 """Bacteria held in one place, where they wiggle: the temporal median shows them, so they are taken out of it.
 
 A bacterium tethered to the glass, or one that trembles in a pore, hardly deviates from a median that holds it. Debris
-is told from it by how it moves: not at all, or in the rhythm of the medium, which shakes all that lies in it alike.
+is told from it by how it moves: not at all, or in the rhythm of the medium, which shakes all that lies in it alike. So
+one that is alone is left where it is, and where all of them wiggle more is asked of each.
+
+The numbers were chosen on simulated films (docs/experiments.md, "Tethered bacteria").
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -23,12 +26,14 @@ SAMPLES = 48
 """Frames, spread evenly over those of the background."""
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
-CONTRAST, CLEARNESS = 3.0, 5.0
-"""A spot must stand out so many times more than the noise, and than what is around it: not so in most gels, where grain
-is as large as a bacterium and no one knows what is behind it."""
+CONTRAST, CLEARNESS = 3.0, 3.0
+"""A spot stands out so many times more than the noise, and than what is around it."""
+CLEAR = 5.0
+"""What may be a bacterium stands out so many times more than what is around it: not so in most gels, where grain is as
+large as a bacterium and no one knows what is behind it."""
 STEADY = 0.5
 """It must stand out more than this share of what varies there, or it is what a body left that lay there for a while."""
-MOST = 1000
+MOST = 500
 """Spots that are looked at, the strongest ones."""
 REACH_PX, WIDTH_PX = 7, 4.0
 """Half the edge of the patch around a spot, and the width (sigma) of its Gaussian weights."""
@@ -38,9 +43,11 @@ LOUDEST = 20.0
 """Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
 OWN_SHARE = 0.75
 """Of a spot's typical step, what is left without the common rhythm."""
-SIGNIFICANT = 2.5
-"""Times its error, or what the quieter spots of the film show, if they seem to move by up to `QUIET` errors."""
-QUIET = 4.0
+SIGNIFICANT, QUIET = 2.5, 4.0
+"""A spot's typical step, in errors, must be so many times that of the film's quieter spots, their lower quartile, which
+counts as 1 at least and as `QUIET` at most."""
+FEWEST_OTHERS = 2
+"""Spots apart from one that tell the rhythm it may share: with the stage, where its motion could not be measured."""
 ALIKE = 0.15
 """Least share of what changes around a spot, but for the noise, that its steps explain: digits of a clock, and debris
 in a packed video, change without a move."""
@@ -48,16 +55,19 @@ LEAST_STEP_PX = 0.11
 """Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
 
 
+_Sample = tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]
+
+
 @dataclass(frozen=True, slots=True)
 class _Spots:
-    """Places of a background where something as small as a bacterium stands out, the strongest first."""
+    """Places of a background where something as small as a bacterium stands out, the strongest first, and which of
+    them may be one."""
 
     x: Int64[np.ndarray, " spot"]
     y: Int64[np.ndarray, " spot"]
+    clear: Bool[np.ndarray, " spot"]
 
-    def patches(
-        self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)
-    ) -> tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]:
+    def patches(self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)) -> _Sample:
         """What is around each spot in an image in which the background's corner lies at `place` (x, y), and whether the
         image shows all of it."""
         h, w = image.shape
@@ -77,7 +87,7 @@ class _Moves:
     """How each spot moves from one sample to the next.
 
     steps: in pixels, NaN where it is not seen. error: standard deviation that the noise adds to them. explained: share
-    of what changes around the spot, typically and but for the noise.
+    of the typical change around the spot, less the noise's, that its steps account for.
     """
 
     steps: Float[np.ndarray, "spot axis step"]
@@ -85,20 +95,28 @@ class _Moves:
     explained: Float[np.ndarray, " spot"]
 
 
-def without_tethered(background: Background, film: Film, motion: FilmMotion, frames: range, noise: float) -> Background:
+def without_tethered(
+    background: Background,
+    film: Film,
+    motion: FilmMotion,
+    frames: range,
+    noise: float,
+    alive: Callable[[], None] = lambda: None,
+) -> Background:
     """`background` with what surrounds them in the place of bacteria that wiggle; the same object if there are none.
 
     Args:
         film, motion: frames as the camera took them, and how the scene stands in them.
         frames: consecutive ones of the film, those the background is made of.
         noise: what a deviation must exceed, in grey levels.
+        alive: called for each frame that is read.
     """
     spots = _spots(background, noise)
-    if not len(spots.x):
+    if not spots.clear.any():
         return background
-    moves = _moves(spots, background, film, motion, frames, noise)
+    moves = _moves(spots, _samples(spots, background, film, motion, frames, alive), background.median, noise)
     # The halo of a bacterium moves with it, that of debris beside it does not: only the strongest spot is asked.
-    held = _moves_by_itself(spots, moves) & ~np.tril(spots.near(), -1).any(axis=1)
+    held = spots.clear & _moves_by_itself(spots, moves) & ~np.tril(spots.near(), -1).any(axis=1)
     if not held.any():
         return background
     return replace(background, median=_filled(background, spots.x[held], spots.y[held]))
@@ -112,17 +130,16 @@ def _spots(background: Background, noise: float) -> _Spots:
     cut = np.minimum(height, 8 * float(np.median(height)) + 1e-6)
     around = np.sqrt(cv2.GaussianBlur(cut * cut, (0, 0), 12))
     peak = cv2.dilate(height, np.ones((7, 7), np.uint8)) == height
-    least = np.maximum(np.maximum(CLEARNESS * around, STEADY * background.spread), CONTRAST * noise)
-    y, x = np.nonzero(peak & (height > least))
+    y, x = np.nonzero(peak & (height > np.maximum(CONTRAST * noise, CLEARNESS * around)))
     strongest = np.argsort(-height[y, x], kind="stable")[:MOST]
-    return _Spots(x[strongest], y[strongest])
+    x, y = x[strongest], y[strongest]
+    clear = height[y, x] > np.maximum(CLEAR * around, STEADY * background.spread)[y, x]
+    return _Spots(x, y, clear)
 
 
-def _moves(
-    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, noise: float
-) -> _Moves:
-    """By the method of Lucas and Kanade (1981)."""
-    smooth = cv2.GaussianBlur(background.median, (0, 0), 0.7)
+def _moves(spots: _Spots, samples: Iterator[_Sample], median: Float32[np.ndarray, "h w"], noise: float) -> _Moves:
+    """Steps from sample to sample, by the slopes of the median (Lucas and Kanade, 1981)."""
+    smooth = cv2.GaussianBlur(median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
     slope = np.stack(slopes, axis=1).reshape(len(spots.x), 2, -1)
     across = np.square(np.arange(-REACH_PX, REACH_PX + 1))
@@ -134,10 +151,10 @@ def _moves(
     solved = np.linalg.solve(power, weighted)
 
     steps, changes = [], []
-    for (before, known), (now, still_known) in pairwise(_samples(spots, background, film, motion, frames)):
+    for (before, known), (now, still_known) in pairwise(samples):
         change = (before - now).reshape(len(spots.x), -1)
         change -= (change @ weight / weight.sum())[:, None]
-        step = (solved @ change[:, :, None])[:, :, 0]
+        step = np.einsum("sap,sp->sa", solved, change)
         rest = change - (step[:, :, None] * slope).sum(axis=1)
         seen = (known & still_known)[:, None]
         steps.append(np.where(seen, step, np.nan))
@@ -145,17 +162,20 @@ def _moves(
     if not steps:
         return _Moves(np.empty((len(spots.x), 2, 0)), np.ones((len(spots.x), 2)), np.zeros(len(spots.x)))
     error = np.sqrt(2 * np.square(solved).sum(axis=2)) * noise
-    whole, unexplained = _median(np.stack(changes, axis=2))[:, :, 0].T
-    but_noise = np.maximum(whole - 2 * noise**2 * weight.sum(), 0.2 * whole)
-    return _Moves(np.stack(steps, axis=2), error, (whole - unexplained) / np.maximum(but_noise, 1e-12))
+    total, unexplained = _median(np.stack(changes, axis=2))[:, :, 0].T
+    but_noise = np.maximum(total - 2 * noise**2 * weight.sum(), 0.2 * total)
+    return _Moves(
+        np.stack(steps, axis=2), np.maximum(error, 1e-9), (total - unexplained) / np.maximum(but_noise, 1e-12)
+    )
 
 
 def _samples(
-    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range
-) -> Iterator[tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]]:
+    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, alive: Callable[[], None]
+) -> Iterator[_Sample]:
     """What is around each spot in some of the frames, and whether these show all of it."""
     left, top = background.origin
     for i in np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int)).tolist():
+        alive()
         if i not in motion.unlit:
             x, y = split_drift(motion.drift[i])[0]
             yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
@@ -164,17 +184,17 @@ def _samples(
 def _moves_by_itself(spots: _Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
     """Which spots move, and in no rhythm that others have too."""
     seen = ~np.isnan(moves.steps[:, 0])
-    held = seen.sum(axis=1) >= LEAST_STEPS
-    if not held.any():
-        return held
+    told = (seen.sum(axis=1) >= LEAST_STEPS) & ((~spots.near()).sum(axis=1) >= FEWEST_OTHERS)
+    if not told.any():
+        return told
     rows = np.clip(np.nan_to_num(moves.steps / moves.error[:, :, None]), -LOUDEST, LOUDEST)
     rhythm = _rhythm_of_others(spots, rows)
     rest = rows - (rows @ rhythm[:, :, None]) * rhythm[:, None, :]
-    own, whole = _typical(rest, seen), _typical(rows, seen)
-    quiet = np.clip(np.quantile(own[held], 0.25), 1, QUIET)
+    own, with_rhythm = _typical(rest, seen), _typical(rows, seen)
+    quiet = np.clip(np.quantile(own[told], 0.25), 1, QUIET)
     far = own * np.sqrt(np.square(moves.error).mean(axis=1)) > LEAST_STEP_PX
-    by_itself = (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * whole)
-    return held & far & by_itself & (moves.explained > ALIKE)
+    by_itself = (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * with_rhythm)
+    return told & far & by_itself & (moves.explained > ALIKE)
 
 
 def _rhythm_of_others(spots: _Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
@@ -189,7 +209,7 @@ def _rhythm_of_others(spots: _Spots, rows: Float[np.ndarray, "spot axis step"]) 
 
 
 def _typical(rows: Float[np.ndarray, "spot axis step"], seen: Bool[np.ndarray, "spot step"]) -> np.ndarray:
-    """Standard deviation told from the median of the absolute values, since others pass now and then; of both axes."""
+    """Standard deviation of both axes, told from medians, since others pass now and then; without a steady creep."""
     known = np.where(seen[:, None], rows, np.nan)
     known = np.abs(known - _median(known))
     return np.sqrt(np.square(1.4826 * _median(known)[:, :, 0]).mean(axis=1))
