@@ -105,7 +105,10 @@ final class MotilityAction extends ModelAction {
         return plot;
     }
 
-    /** From zero tracks on, and one bar for speeds that are all alike: ImageJ would leave both plots empty. */
+    /**
+     * The axis of counts begins at 0, and speeds that are all alike are one bar: ImageJ alone would draw neither these nor
+     * bars of one height.
+     */
     private static void addHistogram(Plot plot, double[] speeds) {
         DoubleSummaryStatistics range = Arrays.stream(speeds).summaryStatistics();
         if (range.getCount() == 0) {
