@@ -88,6 +88,21 @@ def test_drift_and_flicker_cost_little_and_boxes_stay_in_the_film_the_user_sees(
     assert np.abs(moving.drift).max() > 3
 
 
+def test_contrasts_tell_bright_bacteria_from_dark_ones(model: Model) -> None:
+    made = simulate(replace(GEL, drift_per_frame=(0.12, -0.08)), 3)
+    signs = []
+    for frame in run(made.film, model):
+        centres = (frame.detections.boxes[:, :2] + frame.detections.boxes[:, 2:]) / 2
+        assert frame.detections.contrasts is not None
+        for row in np.flatnonzero((made.truth.frames == frame.frame) & ~made.truth.ignored):
+            distances = np.hypot(*(centres - (made.truth.x[row], made.truth.y[row])).T)
+            if len(distances) and distances.min() < 4:
+                contrast = frame.detections.contrasts[distances.argmin()]
+                signs.append(np.sign(contrast) == np.sign(made.recipe.looks[made.truth.ids[row]].contrast))
+    assert len(signs) > 200
+    assert np.mean(signs) > 0.95
+
+
 def test_stabilisation_pays_and_can_be_turned_off(model: Model) -> None:
     moving = simulate(replace(GEL, drift_per_frame=(0.12, -0.08), jitter=0.2), 3)
     without, with_it = run(moving.film, model, stabilise=False), run(moving.film, model)

@@ -24,11 +24,15 @@ class Level(enum.IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Detections:
-    """Boxes with their scores and levels; row i of each array describes detection i."""
+    """Boxes with their scores, levels and contrasts (`memtrack.contrast`); row i of each array describes detection i.
+
+    contrasts: None where they were not measured.
+    """
 
     boxes: Float32[np.ndarray, "n 4"]
     scores: Float32[np.ndarray, " n"]
     levels: Int8[np.ndarray, " n"]
+    contrasts: Float32[np.ndarray, " n"] | None = None
 
     def __post_init__(self) -> None:
         n = len(self.boxes)
@@ -36,13 +40,16 @@ class Detections:
             raise ValueError(
                 f"boxes {self.boxes.shape}, scores {self.scores.shape} and levels {self.levels.shape} do not fit"
             )
+        if self.contrasts is not None and self.contrasts.shape != (n,):
+            raise ValueError(f"{n} boxes and contrasts {self.contrasts.shape} do not fit")
 
     def __len__(self) -> int:
         return len(self.boxes)
 
     def select(self, rows: np.ndarray) -> Detections:
         """The detections at `rows`, a boolean mask or an array of indices, in that order."""
-        return Detections(self.boxes[rows], self.scores[rows], self.levels[rows])
+        contrasts = None if self.contrasts is None else self.contrasts[rows]
+        return Detections(self.boxes[rows], self.scores[rows], self.levels[rows], contrasts)
 
     @staticmethod
     def empty() -> Detections:

@@ -68,10 +68,14 @@ def frame(found: FrameDetections) -> pb.DetectFilmResponse:
 
 
 def _boxes(detections: Detections) -> list[pb.Detection]:
-    rows = zip(detections.boxes.tolist(), detections.scores.tolist(), detections.levels.tolist(), strict=True)
+    told = detections.contrasts
+    contrasts = [None] * len(detections) if told is None else told.tolist()
+    rows = zip(
+        detections.boxes.tolist(), detections.scores.tolist(), detections.levels.tolist(), contrasts, strict=True
+    )
     return [
-        pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=LEVELS[Level(level)])
-        for (x0, y0, x1, y1), score, level in rows
+        pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=LEVELS[Level(level)], contrast=contrast)
+        for (x0, y0, x1, y1), score, level, contrast in rows
     ]
 
 

@@ -12,9 +12,11 @@ from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
 from memtrack.blanks import FilledFilm, without_blanks
+from memtrack.channels import Channel
+from memtrack.contrast import with_contrasts
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
-from memtrack.detector import detect
+from memtrack.detector import Engine, detect
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.lookahead import ahead
@@ -26,6 +28,8 @@ from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
 
+DEVIATION = "deviation"
+"""Channel of the features that tells contrasts."""
 CELL_LENGTH_UM = 2.0
 """Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
 BLANK_MARGIN_PX = 6.0
@@ -130,7 +134,7 @@ def detect_film(
     )
     features = FilmFeatures(scene, model.card.features)
     frames = (features.channels(i) for i in range(count))
-    with ahead(partial(detect, engine, model.card.decoder), frames, threads) as found:
+    with ahead(partial(_candidates, engine, model.card), frames, threads) as found:
         for i, on_grid in enumerate(found):
             done = i + 1
             report(Stage.DETECTING, done, count)
@@ -139,6 +143,12 @@ def detect_film(
             drift_x, drift_y = motion.drift[i] / factors
             weak = faint(candidates, kept, pruner, region)
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
+
+
+def _candidates(engine: Engine, card: ModelCard, channels: list[Channel]) -> Detections:
+    """Of one frame; with contrasts where the model's features hold the signed deviation."""
+    found, names = detect(engine, card.decoder, channels), card.features.channels
+    return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
 
 
 def mended(film: Film) -> Film:
@@ -223,7 +233,7 @@ def to_film(found: Detections, rest: tuple[float, float], factors: Float64[np.nd
     """
     at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
     boxes = (at_model_scale + 0.5) / np.tile(factors, 2).astype(np.float32) - 0.5
-    return Detections(boxes.astype(np.float32), found.scores, found.levels)
+    return replace(found, boxes=boxes.astype(np.float32))
 
 
 def _at(report: Report, stage: Stage) -> Callable[[int, int], None]:

@@ -27,8 +27,9 @@ LOW = pb.LevelThresholds(low=0.1, medium=0.1, high=0.1)
 
 
 def rows(found: Iterable[pb.Detection]) -> np.ndarray:
-    """Boxes, scores and levels (from 0)."""
-    return np.array([[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1] for d in found]).reshape(-1, 6)
+    """Boxes, scores, levels (from 0) and contrasts."""
+    table = [[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1, d.contrast] for d in found]
+    return np.array(table).reshape(-1, 7)
 
 
 def check_order(found: Answer, frames: int) -> None:
@@ -50,7 +51,7 @@ def test_a_film_gets_the_detections_of_the_method_itself(server: RunningServer, 
     check_order(found, 12)
     for ours, theirs in zip(found.frame, expected, strict=True):
         for sent, made in ((ours.detections, theirs.detections), (ours.faint, theirs.faint)):
-            np.testing.assert_array_equal(rows(sent), np.c_[made.boxes, made.scores, made.levels])
+            np.testing.assert_array_equal(rows(sent), np.c_[made.boxes, made.scores, made.levels, made.contrasts])
         assert (ours.drift_x, ours.drift_y) == (theirs.drift_x, theirs.drift_y)
     counts = sum((frame.counts for frame in expected), FilterCounts())
     summary = found.summary[0]

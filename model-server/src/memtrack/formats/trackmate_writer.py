@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes TrackMate's model file, as TrackMate 7 and 8 open it and the plug-in writes it; with a film it opens on that.
 
-What only the plug-in knows is left out: levels, the stage's drift, speeds and diffusivities.
+What only the plug-in knows is left out: levels, contrasts, the stage's drift, speeds and diffusivities.
 """
 
 from __future__ import annotations

@@ -73,7 +73,8 @@ final class Messages {
         List<Detection> detections = new ArrayList<>(messages.size());
         for (org.memtrack.v1.Detection detection : messages) {
             Box box = new Box(detection.getXMin(), detection.getYMin(), detection.getXMax(), detection.getYMax());
-            detections.add(new Detection(box, detection.getScore(), level(detection.getLevel())));
+            double contrast = detection.hasContrast() ? detection.getContrast() : Double.NaN;
+            detections.add(new Detection(box, detection.getScore(), level(detection.getLevel()), contrast));
         }
         return detections;
     }

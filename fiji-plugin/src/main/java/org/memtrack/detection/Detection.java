@@ -7,11 +7,17 @@ package org.memtrack.detection;
  * @param box where, in pixels of the film as the user sees it
  * @param score how sure the detector is, in [0, 1]; other detectors' qualities may exceed 1
  * @param level which level's detector found it
+ * @param contrast how much brighter (above 0) or darker than the background it is, in [-1, 1]; NaN when not known
  */
-public record Detection(Box box, double score, Level level) {
+public record Detection(Box box, double score, Level level, double contrast) {
     public Detection {
         if (!Double.isFinite(score)) {
             throw new IllegalArgumentException("The score of a detection must be a finite number, not " + score);
         }
+    }
+
+    /** A detection whose contrast is not known. */
+    public Detection(Box box, double score, Level level) {
+        this(box, score, level, Double.NaN);
     }
 }

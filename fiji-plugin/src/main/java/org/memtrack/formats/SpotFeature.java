@@ -15,6 +15,8 @@ public enum SpotFeature {
     BOX_HEIGHT("MEMTRACK_BOX_HEIGHT", "Box height", "Box height", "LENGTH", false),
     /** Score of the detection; an interpolated spot has none. */
     SCORE("MEMTRACK_SCORE", "Detection score", "Score", "QUALITY", false),
+    /** How much brighter (above 0) or darker than the background it is, in [-1, 1]; missing when not known. */
+    CONTRAST("MEMTRACK_CONTRAST", "Contrast to background", "Contrast", "NONE", false),
     /** Class of motility of the track: 0 none, 1 low, 2 medium, 3 high; missing when it is not known. */
     MOTILITY("MEMTRACK_MOTILITY", "Motility class", "Motility", "NONE", true),
     /** How far the scene stands right of its place in the first frame, calibrated; missing when it is not known to move. */

@@ -135,6 +135,9 @@ final class TrackMateXmlWriter {
             attributes.addAll(List.of(
                     SpotFeature.LEVEL.key(), Integer.toString(SpotFeature.codeOf(detection.level())),
                     SpotFeature.SCORE.key(), Double.toString(detection.score())));
+            if (Double.isFinite(detection.contrast())) {
+                attributes.addAll(List.of(SpotFeature.CONTRAST.key(), Double.toString(detection.contrast())));
+            }
         }
         spot.motility()
                 .motilityClass()

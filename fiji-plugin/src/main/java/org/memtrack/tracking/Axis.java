@@ -24,7 +24,11 @@ record Axis(double value, double velocity, double variance, double covariance, d
      * @param step added to the value each frame
      * @param velocityStep added to the velocity each frame
      */
-    record Noise(double measurement, double start, double startVelocity, double step, double velocityStep) {}
+    record Noise(double measurement, double start, double startVelocity, double step, double velocityStep) {
+        Noise withMeasurement(double variance) {
+            return new Noise(variance, start, startVelocity, step, velocityStep);
+        }
+    }
 
     static Axis start(double measured, Noise noise) {
         return new Axis(measured, 0, noise.start, 0, noise.startVelocity);

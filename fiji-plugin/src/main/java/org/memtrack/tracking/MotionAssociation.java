@@ -12,11 +12,11 @@ import org.memtrack.tracking.Matching.Pair;
  * detection, and is anywhere as near to that as its speed allows.
  *
  * <p>The gain of a match is the logarithm of that density over the density of new swimmers and false alarms; a match worth
- * less than nothing is not made, which is the gate.
+ * less than nothing is not made, which is the gate. Where several matches pass it, contrasts have a say in which is made.
  *
- * @param model how swimmers move
+ * @param swimmers how those of the film move and look
  */
-record MotionAssociation(MotionModel model) implements Associator {
+record MotionAssociation(SwimmerModel swimmers) implements Associator {
     /** New swimmers and false alarms, a pixel^2 and frame: 3 in a frame of 660 x 492. */
     private static final double NEW_DENSITY = 1e-5;
 
@@ -24,7 +24,10 @@ record MotionAssociation(MotionModel model) implements Associator {
     private static final double FORGETTING = 0.1;
 
     /** Variance of the way since the last detection after a tumble, as a share of (start speed x frames)^2. */
-    private static final double TUMBLE_SPREAD = 0.7;
+    static final double TUMBLE_SPREAD = 0.7;
+
+    /** What a match is worth at least that passes the gate, whatever its contrast says. */
+    private static final double LEAST_GAIN = 0.01;
 
     /** Where a tracklet may be: a mixture of two normal distributions. */
     private record Place(
@@ -70,18 +73,26 @@ record MotionAssociation(MotionModel model) implements Associator {
         List<Pair> pairs = new ArrayList<>();
         for (int i = 0; i < tracklets.size(); i++) {
             int track = i;
-            Place place = placeOf(tracklets.get(i));
+            Tracklet tracklet = tracklets.get(i);
+            Place place = placeOf(tracklet);
             alongX.forEachNear(place.last.x().value(), place.reach(), detection -> {
-                double gain = place.gain(detections.get(detection).box());
+                Detection found = detections.get(detection);
+                double gain = place.gain(found.box());
                 if (gain > 0) {
-                    pairs.add(new Pair(track, detection, gain));
+                    pairs.add(new Pair(track, detection, Math.max(LEAST_GAIN, gain + ofContrast(tracklet, found))));
                 }
             });
         }
         return Matching.best(tracklets.size(), detections.size(), pairs);
     }
 
+    private double ofContrast(Tracklet tracklet, Detection found) {
+        Axis known = tracklet.contrast();
+        return known == null ? 0 : swimmers.contrast().gain(known, found.contrast());
+    }
+
     private Place placeOf(Tracklet tracklet) {
+        MotionModel model = swimmers.motion();
         BoxState state = tracklet.state();
         double measurement = model.position().measurement();
         int frames = tracklet.framesWithoutDetection();

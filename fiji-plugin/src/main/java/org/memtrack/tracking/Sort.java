@@ -15,7 +15,10 @@ import org.memtrack.tracking.Matching.Pair;
  */
 final class Sort {
     private final SortSettings settings;
-    private final MotionModel model;
+    /** A contrast is another swimmer's, too, where that is nearer than this, as a share of a box's edge. */
+    private static final double APART = 0.4;
+
+    private final SwimmerModel swimmers;
     private final Associator associator;
     private final List<Tracklet> tracklets = new ArrayList<>();
     private final List<Tracklet> growing = new ArrayList<>();
@@ -24,22 +27,15 @@ final class Sort {
     /**
      * Before the first frame.
      *
-     * @param boxEdge typical edge of a box, pixels
-     * @param speed of the film's swimmers, pixels a frame; see {@link MotionModel#swimmers(double, double)}
+     * @param swimmers how those of the film move and look
      */
-    Sort(SortSettings settings, double boxEdge, double speed) {
+    Sort(SortSettings settings, SwimmerModel swimmers) {
         this.settings = settings;
-        switch (settings.association()) {
-            case OVERLAP -> {
-                model = MotionModel.SORT;
-                associator = new OverlapAssociation(settings.iouGate());
-            }
-            case MOTION -> {
-                model = MotionModel.swimmers(boxEdge, speed);
-                associator = new MotionAssociation(model);
-            }
-            default -> throw new IllegalArgumentException("Unknown: " + settings.association());
-        }
+        this.swimmers = swimmers;
+        this.associator = switch (settings.association()) {
+            case OVERLAP -> new OverlapAssociation(settings.iouGate());
+            case MOTION -> new MotionAssociation(swimmers);
+        };
     }
 
     /** Takes the next frame, also one without detections. */
@@ -49,7 +45,7 @@ final class Sort {
         growing.removeIf(tracklet -> !tracklet.state().isBox());
         List<Detection> unmatched = match(frame.detections());
         for (Detection detection : unmatched) {
-            Tracklet begun = new Tracklet(detection, model);
+            Tracklet begun = new Tracklet(detection, swimmers);
             tracklets.add(begun);
             growing.add(begun);
         }
@@ -64,8 +60,11 @@ final class Sort {
 
     private List<Detection> match(List<Detection> detections) {
         boolean[] matched = new boolean[detections.size()];
+        DetectionsAlongX alongX = new DetectionsAlongX(detections);
         for (Pair pair : associator.match(growing, detections)) {
-            growing.get(pair.track()).update(detections.get(pair.detection()));
+            Detection detection = detections.get(pair.detection());
+            boolean alone = alongX.isAlone(detection, APART * swimmers.edge());
+            growing.get(pair.track()).update(detection, alone);
             matched[pair.detection()] = true;
         }
         List<Detection> unmatched = new ArrayList<>();

@@ -58,8 +58,8 @@ public final class SortTracker {
         double share = again ? 0.5 : 1;
         List<List<TrackPoint>> kept = new ArrayList<>();
         int dropped = 0;
-        for (Tracklet tracklet : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
-            List<TrackPoint> points = scene.inFilm(pointsOf(tracklet));
+        for (List<TrackPoint> found : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
+            List<TrackPoint> points = scene.inFilm(whole(found));
             if (points.isEmpty()) {
                 continue;
             }
@@ -71,11 +71,11 @@ public final class SortTracker {
         }
         if (again) {
             List<FrameDetections> rest = SecondLook.unaccounted(frames, kept);
-            for (Tracklet tracklet : joined(rest, scene, done -> progress.accept(share + share * done), cancelled)) {
-                List<TrackPoint> found = tracklet.points();
+            for (List<TrackPoint> found :
+                    joined(rest, scene, done -> progress.accept(share + share * done), cancelled)) {
                 if (SecondLook.isCell(found, settings.filter().minimumScore())
                         && settings.filter().isLong(found)) {
-                    kept.add(scene.inFilm(pointsOf(tracklet)));
+                    kept.add(scene.inFilm(whole(found)));
                 }
             }
         }
@@ -88,24 +88,38 @@ public final class SortTracker {
     }
 
     /**
-     * Tracklets with as many detections as they need. How fast the swimmers of a film are is known once they are joined: where
-     * that is faster than usual, as in films of few frames a second, they are joined anew.
+     * Points of the tracks with as many detections as they need. How the swimmers of a film move and look is known once they
+     * are joined: with that they are joined anew, and told apart where they met.
      */
-    private List<Tracklet> joined(
+    private List<List<TrackPoint>> joined(
             List<FrameDetections> frames, SceneView scene, DoubleConsumer progress, BooleanSupplier cancelled) {
         double edge = typicalEdge(frames);
-        Sort sort = new Sort(settings, edge, MotionModel.USUAL_SPEED);
+        SwimmerModel swimmers = switch (settings.association()) {
+            case OVERLAP -> new SwimmerModel(edge, MotionModel.SORT, null);
+            case MOTION -> SwimmerModel.usual(edge);
+        };
+        Sort sort = new Sort(settings, swimmers);
         if (settings.association() == Association.MOTION) {
             step(sort, frames, scene, done -> progress.accept(done / 2), cancelled);
-            double speed = Math.min(SwimmerSpeed.of(sort.tracklets()), edge);
-            if (speed > MotionModel.USUAL_SPEED) {
-                sort = new Sort(settings, edge, speed);
+            SwimmerModel told = SwimmerModel.of(sort.tracklets(), edge);
+            if (!told.equals(swimmers)) {
+                swimmers = told;
+                sort = new Sort(settings, swimmers);
                 step(sort, frames, scene, done -> progress.accept(0.5 + done / 2), cancelled);
             }
         } else {
             step(sort, frames, scene, progress, cancelled);
         }
-        return sort.tracklets().stream().filter(this::hasHitsEnough).toList();
+        List<List<TrackPoint>> tracks =
+                sort.tracklets().stream().map(Tracklet::points).toList();
+        if (settings.interpolation() == Interpolation.AUTHORS) {
+            return tracks;
+        }
+        List<List<TrackPoint>> untangled =
+                settings.association() == Association.MOTION ? Meetings.untangled(tracks, swimmers) : tracks;
+        return untangled.stream()
+                .filter(points -> points.size() >= settings.minimumHits())
+                .toList();
     }
 
     private static void step(
@@ -145,14 +159,7 @@ public final class SortTracker {
         sort.step(frame);
     }
 
-    private boolean hasHitsEnough(Tracklet tracklet) {
-        return settings.interpolation() == Interpolation.AUTHORS || tracklet.hits() >= settings.minimumHits();
-    }
-
-    private List<TrackPoint> pointsOf(Tracklet tracklet) {
-        return switch (settings.interpolation()) {
-            case FILL_GAPS -> GapFilling.fill(tracklet.points());
-            case AUTHORS -> tracklet.points();
-        };
+    private List<TrackPoint> whole(List<TrackPoint> found) {
+        return settings.interpolation() == Interpolation.FILL_GAPS ? GapFilling.fill(found) : found;
     }
 }

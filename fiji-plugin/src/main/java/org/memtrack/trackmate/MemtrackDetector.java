@@ -129,6 +129,9 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
                 detection.score());
         spot.putFeature(SpotFeature.LEVEL.key(), (double) SpotFeature.codeOf(detection.level()));
         spot.putFeature(SpotFeature.SCORE.key(), detection.score());
+        if (Double.isFinite(detection.contrast())) {
+            spot.putFeature(SpotFeature.CONTRAST.key(), detection.contrast());
+        }
         spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
         spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
         spot.putFeature(SpotFeature.INTERPOLATED.key(), 0.0);

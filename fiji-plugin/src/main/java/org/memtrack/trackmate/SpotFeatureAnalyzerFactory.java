@@ -99,7 +99,7 @@ public final class SpotFeatureAnalyzerFactory<T extends RealType<T> & NativeType
 
     @Override
     public String getInfoText() {
-        return "Level, score and box of MEMTrack's detector, the drift of the stage it saw, and whether its tracker interpolated"
+        return "Level, score, contrast and box of MEMTrack's detector, the drift of the stage it saw, and whether its tracker interpolated"
                 + " the spot.";
     }
 

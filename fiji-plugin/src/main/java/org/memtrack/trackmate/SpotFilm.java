@@ -70,7 +70,8 @@ final class SpotFilm {
                 Detection detection = new Detection(
                         Spots.box(spot, pixelWidth, pixelHeight),
                         Spots.value(spot, Spot.QUALITY, 0),
-                        SpotFeature.levelOf(Spots.value(spot, SpotFeature.LEVEL.key(), 0)));
+                        SpotFeature.levelOf(Spots.value(spot, SpotFeature.LEVEL.key(), 0)),
+                        Spots.value(spot, SpotFeature.CONTRAST.key(), Double.NaN));
                 spotOf.put(detection, spot);
                 detections.add(detection);
             }

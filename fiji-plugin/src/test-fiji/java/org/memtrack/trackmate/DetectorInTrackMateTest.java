@@ -118,6 +118,7 @@ class DetectorInTrackMateTest {
             if (spot.getFeature("MEMTRACK_INTERPOLATED") == 0) {
                 assertThat(spot.getFeature(Spot.QUALITY)).isEqualTo(spot.getFeature("MEMTRACK_SCORE")).isBetween(0.0, 1.0);
                 assertThat(spot.getFeature("MEMTRACK_LEVEL")).isBetween(1.0, 3.0);
+                assertThat(spot.getFeature("MEMTRACK_CONTRAST")).isBetween(-1.0, 1.0);
             }
         }
         assertThat(trackmate.getModel().getTrackModel().nTracks(true)).isBetween(5, 60);

@@ -150,7 +150,8 @@ final class ScriptedServer extends DetectionServiceGrpc.DetectionServiceImplBase
                     .setXMax(i + 20)
                     .setYMax(i + 40)
                     .setScore(0.75f)
-                    .setLevel(Level.LEVEL_MEDIUM));
+                    .setLevel(Level.LEVEL_MEDIUM)
+                    .setContrast(-0.5f));
         }
         found.addFaint(Detection.newBuilder()
                 .setXMin(50)

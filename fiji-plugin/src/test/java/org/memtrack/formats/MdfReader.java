@@ -50,6 +50,7 @@ final class MdfReader {
                 Level.UNSPECIFIED,
                 time != Math.round(time),
                 OptionalDouble.empty(),
+                OptionalDouble.empty(),
                 OptionalDouble.empty());
     }
 }

@@ -44,6 +44,8 @@ class RoundTripTest {
                     .isEqualTo(tracked.motility().get(i).motilityClass());
             assertThat(read.tracks().get(i).linkCosts())
                     .hasSize(tracked.tracks().get(i).points().size() - 1);
+            assertThat(read.tracks().get(i).spots())
+                    .allMatch(spot -> spot.interpolated() != spot.contrast().isPresent());
         }
         if (calibrated) {
             assertThat(read.pixelSizeMicrometres().getAsDouble()).isCloseTo(0.2475, within(1e-12));
@@ -186,6 +188,7 @@ class RoundTripTest {
                     assertThat(spot.score()).isEqualTo(OptionalDouble.empty());
                 } else {
                     assertThat(spot.score().getAsDouble()).isCloseTo(detection.score(), within(tolerance));
+                    spot.contrast().ifPresent(contrast -> assertThat(contrast).isEqualTo(detection.contrast()));
                 }
             }
         }

@@ -40,6 +40,7 @@ final class TrackCsvReader {
                             named(Level.values(), row[columns.indexOf("level")]).orElse(Level.UNSPECIFIED),
                             row[columns.indexOf("interpolated")].equals("1"),
                             OptionalDouble.empty(),
+                            OptionalDouble.empty(),
                             OptionalDouble.empty()));
         }
         return ImportedTracks.of("CSV", List.copyOf(tracks.values()));

@@ -55,7 +55,7 @@ final class TrackedWorlds {
                 .map(detection -> {
                     Box box = detection.box();
                     Box there = Box.around(box.centreX() + x, box.centreY() + y, box.width(), box.height());
-                    return new Detection(there, detection.score(), detection.level());
+                    return new Detection(there, detection.score(), detection.level(), detection.score() - 0.75);
                 })
                 .toList();
         return new FrameDetections(frame.frame(), moved, x, y);

@@ -15,6 +15,7 @@ import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
@@ -137,6 +138,47 @@ class SortTrackerTest {
             double way = points.get(39).box().centreX() - points.get(0).box().centreX();
             assertThat(Math.abs(way)).isCloseTo(117, within(1e-9));
         }
+    }
+
+    /** A bright and a dark one that touch and turn back, on a stage that stands still or drifts. */
+    @ParameterizedTest
+    @ValueSource(doubles = {0, 0.5})
+    void twoSwimmersThatTurnBackAreToldByTheirContrast(double drift) {
+        List<FrameDetections> frames = new ArrayList<>();
+        for (int frame = 0; frame < 80; frame++) {
+            double way = 2 * Math.abs(frame - 40);
+            Detection bright = new Detection(Box.around(96 - way + drift * frame, 60, 30, 30), 0.9, Level.HIGH, 0.3);
+            Detection dark = new Detection(Box.around(104 + way + drift * frame, 62, 30, 30), 0.9, Level.HIGH, -0.3);
+            boolean apart = way > 4; // one box for both while they lie over each other
+            frames.add(new FrameDetections(frame, apart ? List.of(bright, dark) : List.of(bright), drift * frame, 0));
+        }
+
+        List<Track> tracks = track(frames);
+
+        assertThat(tracks).hasSize(2);
+        for (Track track : tracks) {
+            double first = track.points().get(0).detection().contrast();
+            double last = track.points().get(track.length() - 1).detection().contrast();
+            assertThat(last).isEqualTo(first);
+        }
+    }
+
+    @Test
+    void aSwimmerWhoseContrastChangesAtOnceKeepsItsTrack() {
+        List<FrameDetections> frames = new ArrayList<>();
+        for (int frame = 0; frame < 80; frame++) {
+            List<Detection> detections = new ArrayList<>();
+            for (int swimmer = 0; swimmer < 3; swimmer++) {
+                double contrast = swimmer == 0 && frame >= 40 ? -0.5 : 0.2 * swimmer;
+                Box box = Box.around(20 + frame, 60 + 100 * swimmer, 30, 30);
+                detections.add(new Detection(box, 0.9, Level.HIGH, contrast));
+            }
+            frames.add(new FrameDetections(frame, detections));
+        }
+
+        assertThat(track(frames))
+                .hasSize(3)
+                .allSatisfy(track -> assertThat(track.length()).isEqualTo(80));
     }
 
     @Test
