@@ -44,8 +44,13 @@ final class Meetings {
 
     private final SwimmerModel swimmers;
 
-    /** Two tracks, by number, the first one smaller, that are near each other in these frames. */
-    private record Meeting(int first, int second, int begin, int end) {}
+    /** Two tracks, by number, the first one smaller, that are near each other in these frames, nearest in one of them. */
+    private record Meeting(int first, int second, int begin, int end, int nearest, double distance) {
+        Meeting and(Meeting later) {
+            Meeting nearer = later.distance < distance ? later : this;
+            return new Meeting(first, second, begin, later.end, nearer.nearest, nearer.distance);
+        }
+    }
 
     /** What is known of a swimmer at a meeting, from before it or, backwards, from after it. */
     private record Side(BoxState state, int frame, double contrast, int contrasts) {}
@@ -70,9 +75,8 @@ final class Meetings {
             List<TrackPoint> one = untangled.get(first);
             List<TrackPoint> other = untangled.get(second);
             if (meetings.gainOfExchange(one, other, meeting) > LEAST_GAIN) {
-                int middle = (meeting.begin + meeting.end) / 2;
-                untangled.set(first, spliced(one, other, middle));
-                untangled.set(second, spliced(other, one, middle));
+                untangled.set(first, spliced(one, other, meeting.nearest));
+                untangled.set(second, spliced(other, one, meeting.nearest));
                 now[meeting.first] = second;
                 now[meeting.second] = first;
             }
@@ -126,7 +130,8 @@ final class Meetings {
         Map<Integer, Box> others = new HashMap<>();
         ofOther.forEach(point -> others.put(point.frame(), point.box()));
         List<TrackPoint> apart = points.stream()
-                .filter(point -> !isNear(point.box(), others.get(point.frame()), APART * swimmers.edge()))
+                .filter(point -> !others.containsKey(point.frame())
+                        || distance(point.box(), others.get(point.frame())) >= APART * swimmers.edge())
                 .toList();
         List<TrackPoint> seen = apart.size() < LEAST_POINTS ? points : apart;
         double contrast = seen.stream()
@@ -136,8 +141,8 @@ final class Meetings {
         return new Side(state, points.get(points.size() - 1).frame(), contrast, seen.size());
     }
 
-    private static boolean isNear(Box box, Box other, double reach) {
-        return other != null && Math.hypot(other.centreX() - box.centreX(), other.centreY() - box.centreY()) < reach;
+    private static double distance(Box one, Box other) {
+        return Math.hypot(other.centreX() - one.centreX(), other.centreY() - one.centreY());
     }
 
     private BoxState predicted(BoxState state, int frames) {
@@ -213,33 +218,39 @@ final class Meetings {
             }
         }
         double reach = NEAR * swimmers.edge();
-        Map<List<Integer>, Meeting> latest = new HashMap<>();
-        List<Meeting> ended = new ArrayList<>();
+        Map<List<Integer>, List<Meeting>> ofPairs = new HashMap<>();
         frames.forEach((frame, places) -> {
             places.sort(Comparator.comparingDouble(place -> place.box.centreX()));
             for (int i = 0; i < places.size(); i++) {
                 Place one = places.get(i);
                 for (int j = i + 1; j < places.size() && places.get(j).box.centreX() - one.box.centreX() < reach; j++) {
                     Place other = places.get(j);
-                    if (isNear(one.box, other.box, reach)) {
+                    double distance = distance(one.box, other.box);
+                    if (distance < reach) {
                         int first = Math.min(one.track, other.track);
                         int second = Math.max(one.track, other.track);
-                        Meeting before = latest.get(List.of(first, second));
-                        boolean goesOn = before != null && frame - before.end <= LONGEST_BREAK + 1;
-                        if (before != null && !goesOn) {
-                            ended.add(before);
-                        }
-                        latest.put(
-                                List.of(first, second),
-                                new Meeting(first, second, goesOn ? before.begin : frame, frame));
+                        add(
+                                new Meeting(first, second, frame, frame, frame, distance),
+                                ofPairs.computeIfAbsent(List.of(first, second), pair -> new ArrayList<>()));
                     }
                 }
             }
         });
-        ended.addAll(latest.values());
-        ended.sort(Comparator.comparingInt(Meeting::end)
-                .thenComparingInt(Meeting::first)
-                .thenComparingInt(Meeting::second));
-        return ended;
+        return ofPairs.values().stream()
+                .flatMap(List::stream)
+                .sorted(Comparator.comparingInt(Meeting::end)
+                        .thenComparingInt(Meeting::first)
+                        .thenComparingInt(Meeting::second))
+                .toList();
+    }
+
+    /** Adds a frame to the last meeting of two, or begins a new one. */
+    private static void add(Meeting frame, List<Meeting> before) {
+        Meeting last = before.isEmpty() ? null : before.get(before.size() - 1);
+        if (last == null || frame.begin - last.end > LONGEST_BREAK + 1) {
+            before.add(frame);
+        } else {
+            before.set(before.size() - 1, last.and(frame));
+        }
     }
 }

@@ -8,6 +8,8 @@ import java.util.List;
 import java.util.function.IntToDoubleFunction;
 import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.Level;
@@ -83,13 +85,31 @@ class MeetingsTest {
         }
     }
 
+    /** Told by contrast were they nearer. */
     @Test
     void whoNeverMeetsStays() {
-        List<TrackPoint> above = swimmer(frame -> 2 * frame, frame -> 51, 0.2);
-        List<TrackPoint> below = swimmer(frame -> 2 * frame, frame -> 60, -0.2);
+        List<TrackPoint> above = swimmer(frame -> 2 * frame, frame -> 50 - Math.abs(frame - MEETING), 0.4);
+        List<TrackPoint> below = swimmer(frame -> 2 * frame, frame -> 59 + Math.abs(frame - MEETING), -0.4);
         List<List<TrackPoint>> tracks = List.of(confused(above, below, MEETING), confused(below, above, MEETING));
 
         assertThat(Meetings.untangled(tracks, SWIMMERS)).isEqualTo(tracks);
+    }
+
+    /** Confused at the first meeting and again at the second. */
+    @Test
+    void whoPartsAndMeetsAgainIsToldTwice() {
+        IntToDoubleFunction apart = frame -> 6 * Math.abs(Math.sin(Math.PI * frame / 20));
+        List<TrackPoint> above = swimmer(frame -> frame, frame -> 50 - apart.applyAsDouble(frame), 0.4);
+        List<TrackPoint> below = swimmer(frame -> frame, frame -> 50 + apart.applyAsDouble(frame), -0.4);
+        List<TrackPoint> one = confused(confused(above, below, 20), above, 40);
+        List<TrackPoint> other = confused(confused(below, above, 20), below, 40);
+
+        List<List<TrackPoint>> told = Meetings.untangled(List.of(one, other), SWIMMERS);
+
+        for (int frame : new int[] {10, 30, 50}) {
+            assertThat(told.get(0).get(frame).detection().contrast()).isEqualTo(0.4);
+            assertThat(told.get(1).get(frame).detection().contrast()).isEqualTo(-0.4);
+        }
     }
 
     @Test
@@ -100,20 +120,29 @@ class MeetingsTest {
         assertThat(Meetings.untangled(tracks, SWIMMERS)).isEqualTo(tracks);
     }
 
-    /** The third swimmer meets the tail that has just changed hands. */
-    @Test
-    void aLaterMeetingIsOfWhoeverIsThereByThen() {
+    /** A third swimmer meets a tail that has just changed hands, of the one or of the other. */
+    @ParameterizedTest
+    @ValueSource(booleans = {true, false})
+    void aLaterMeetingIsOfWhoeverIsThereByThen(boolean rightwards) {
         int later = 45;
-        List<TrackPoint> third = swimmer(frame -> 90, frame -> 60 + 2 * (frame - later), 0.2);
+        List<TrackPoint> met = rightwards ? RIGHTWARDS : DOWNWARDS;
+        List<TrackPoint> third = rightwards
+                ? swimmer(frame -> 90, frame -> 60 + 2 * (frame - later), 0.2)
+                : swimmer(frame -> 60 + 2 * (frame - later), frame -> 90, 0.2);
         List<TrackPoint> first = confused(RIGHTWARDS, DOWNWARDS, MEETING);
-        List<TrackPoint> second = confused(confused(DOWNWARDS, RIGHTWARDS, MEETING), third, later);
+        List<TrackPoint> second = confused(DOWNWARDS, RIGHTWARDS, MEETING);
 
-        List<List<TrackPoint>> told =
-                Meetings.untangled(List.of(first, second, confused(third, RIGHTWARDS, later)), SWIMMERS);
+        List<List<TrackPoint>> told = Meetings.untangled(
+                List.of(
+                        rightwards ? first : confused(first, third, later),
+                        rightwards ? confused(second, third, later) : second,
+                        confused(third, met, later)),
+                SWIMMERS);
 
-        assertThat(x(told.get(0), FRAMES - 1)).isEqualTo(2 * (FRAMES - 1));
-        assertThat(x(told.get(1), FRAMES - 1)).isEqualTo(60);
-        assertThat(x(told.get(2), FRAMES - 1)).isEqualTo(90);
+        List<List<TrackPoint>> right = List.of(RIGHTWARDS, DOWNWARDS, third);
+        for (int i = 0; i < right.size(); i++) {
+            assertThat(told.get(i).get(FRAMES - 1)).isEqualTo(right.get(i).get(FRAMES - 1));
+        }
     }
 
     @Test

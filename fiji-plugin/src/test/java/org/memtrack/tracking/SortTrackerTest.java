@@ -300,6 +300,17 @@ class SortTrackerTest {
         assertThat(motion).isLessThan((int) (0.85 * overlap));
     }
 
+    /** In these two worlds swimmers that meet are confused when they are joined frame by frame. */
+    @ParameterizedTest
+    @ValueSource(longs = {8, 153})
+    void whoMeetsIsToldByBothSidesOfTheMeeting(long seed) {
+        RandomWorld world =
+                RandomWorld.of(new RandomWorld.Settings(200, 150, 80, 6, 2, 0.02, 30, 0.5, 0.05, 0, 0.1, 0), seed);
+
+        assertThat(switches(world, SortSettings.WATER.with(TrackFilter.ofLength(1))))
+                .isZero();
+    }
+
     @Test
     void swimmersFasterThanUsualAreJoinedOnceTheirSpeedIsKnown() {
         RandomWorld.Settings fewFrames = TrackingBenchmark.WORLDS.get("few frames");
