@@ -85,15 +85,28 @@ final class Meetings {
     }
 
     private static List<TrackPoint> spliced(List<TrackPoint> head, List<TrackPoint> tail, int lastOfHead) {
-        List<TrackPoint> points = new ArrayList<>(within(head, 0, lastOfHead));
-        points.addAll(within(tail, lastOfHead + 1, Integer.MAX_VALUE));
+        List<TrackPoint> points = new ArrayList<>(head.subList(0, indexFrom(head, lastOfHead + 1)));
+        points.addAll(tail.subList(indexFrom(tail, lastOfHead + 1), tail.size()));
         return points;
     }
 
     private static List<TrackPoint> within(List<TrackPoint> points, int first, int last) {
-        return points.stream()
-                .filter(point -> point.frame() >= first && point.frame() <= last)
-                .toList();
+        return points.subList(indexFrom(points, first), indexFrom(points, last + 1));
+    }
+
+    /** Index of the first point that is not before a frame. */
+    private static int indexFrom(List<TrackPoint> points, int frame) {
+        int low = 0;
+        int high = points.size();
+        while (low < high) {
+            int middle = (low + high) >>> 1;
+            if (points.get(middle).frame() < frame) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        return low;
     }
 
     /** Logarithm of how much likelier the two were confused; 0 where one of them begins or ends. */
