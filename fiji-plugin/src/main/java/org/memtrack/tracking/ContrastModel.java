@@ -16,6 +16,9 @@ import org.memtrack.tracking.Axis.Noise;
  * @param variance of the contrast of all swimmers
  */
 record ContrastModel(Noise noise, double mean, double variance) {
+    /** A contrast is one's own where no other swimmer is nearer than this, as a share of a box's edge. */
+    static final double APART = 0.4;
+
     /** Frames after which the change along a track is measured. */
     private static final int LAG = 8;
 

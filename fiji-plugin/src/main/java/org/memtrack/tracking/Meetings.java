@@ -21,9 +21,6 @@ final class Meetings {
     /** Two swimmers meet where their centres are this near, as a share of a box's edge: less, and one box is found. */
     private static final double NEAR = 8 / 30.0;
 
-    /** From here on a contrast is one's own, likewise. */
-    private static final double APART = 12 / 30.0;
-
     /** Frames between which they may be farther apart in one meeting. */
     private static final int LONGEST_BREAK = 3;
 
@@ -144,7 +141,7 @@ final class Meetings {
         ofOther.forEach(point -> others.put(point.frame(), point.box()));
         List<TrackPoint> apart = points.stream()
                 .filter(point -> !others.containsKey(point.frame())
-                        || distance(point.box(), others.get(point.frame())) >= APART * swimmers.edge())
+                        || distance(point.box(), others.get(point.frame())) >= ContrastModel.APART * swimmers.edge())
                 .toList();
         List<TrackPoint> seen = apart.size() < LEAST_POINTS ? points : apart;
         double contrast = seen.stream()

@@ -15,9 +15,6 @@ import org.memtrack.tracking.Matching.Pair;
  */
 final class Sort {
     private final SortSettings settings;
-    /** A contrast is another swimmer's, too, where that is nearer than this, as a share of a box's edge. */
-    private static final double APART = 0.4;
-
     private final SwimmerModel swimmers;
     private final Associator associator;
     private final List<Tracklet> tracklets = new ArrayList<>();
@@ -63,7 +60,7 @@ final class Sort {
         DetectionsAlongX alongX = new DetectionsAlongX(detections);
         for (Pair pair : associator.match(growing, detections)) {
             Detection detection = detections.get(pair.detection());
-            boolean alone = alongX.isAlone(detection, APART * swimmers.edge());
+            boolean alone = alongX.isAlone(detection, ContrastModel.APART * swimmers.edge());
             growing.get(pair.track()).update(detection, alone);
             matched[pair.detection()] = true;
         }

@@ -50,15 +50,6 @@ class MotionAssociationTest {
                 .isEmpty();
     }
 
-    @Test
-    void theOnlyPlaceIsTakenWhateverItsContrast() {
-        for (double away = 0; away <= 12; away++) {
-            assertThat(detectionsOf(List.of(begun(50, 50, 0.3)), List.of(at(50 + away, 50, -0.9))))
-                    .as("%s pixels away".formatted(away))
-                    .isEqualTo(detectionsOf(List.of(begun(50, 50, 0.3)), List.of(at(50 + away, 50, 0.3))));
-        }
-    }
-
     /** The first one reaches one place only, which the second, in its own place, reaches too. */
     @Test
     void asManyPlacesAreTakenWhateverTheirContrasts() {
