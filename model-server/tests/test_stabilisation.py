@@ -96,6 +96,20 @@ def test_swimmers_in_front_of_nothing_are_no_drift() -> None:
     assert np.abs(measured(ArrayFilm(frames.astype(np.uint8)))).max() == 0
 
 
+def test_a_body_that_outshines_the_scene_does_not_hide_its_drift() -> None:
+    rng = np.random.default_rng(3)
+    drift = np.outer(np.arange(60), [0.1, -0.05])
+    specks = rng.uniform(10, [250, 210], (40, 2))
+    body = np.where(rng.random((8, 8)) < 0.5, 10.0, 190.0).repeat(6, axis=0).repeat(6, axis=1)
+    columns, rows = np.arange(260), np.arange(220)
+    frames = rng.normal(100, 2, (60, 220, 260))
+    for i, frame in enumerate(frames):
+        for x, y in specks + drift[i]:
+            frame += 30 * np.outer(np.exp(-np.square(rows - y) / 12.5), np.exp(-np.square(columns - x) / 12.5))
+        frame[80:128, 2 * i : 2 * i + 48] = body
+    np.testing.assert_allclose(measured(ArrayFilm(frames.astype(np.uint8))), drift, atol=0.15)
+
+
 def test_frames_without_their_background_share_no_scene() -> None:
     for seed in (7101, 7108, 7109):  # ones whose noise seems to drift, by 2 to 20 px
         recipe = draw_recipe("subtracted", np.random.default_rng(seed), width=320, height=320, frames=60)
