@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import cv2
 import numpy as np
 import pytest
 
@@ -105,3 +106,49 @@ def test_a_part_that_is_black_for_a_while_is_not_blank() -> None:
     frames[:5, BARS] = 0
     whole = ArrayFilm(frames)
     assert without_blanks(whole) is whole
+
+
+def written_on(frames: np.ndarray, value: int, *, seconds: float = 0.4) -> np.ndarray:
+    """A scale bar at the lower left and a running clock at the upper right; which pixels either ever covers."""
+    covered = np.zeros(SHAPE, bool)
+    for i, frame in enumerate(frames):
+        ink = np.zeros(SHAPE, np.uint8)
+        cv2.rectangle(ink, (8, 108), (68, 110), 255, -1)
+        cv2.putText(ink, f"{i * seconds:.1f} s", (100, 20), cv2.FONT_HERSHEY_SIMPLEX, 0.5, 255, 2)
+        frame[ink > 0] = value
+        covered |= ink > 0
+    return covered
+
+
+@pytest.mark.parametrize("value", [0, 255])
+def test_a_scale_bar_and_a_running_clock_are_filled(value: int) -> None:
+    frames = film(24)
+    covered = written_on(frames, value)
+    marked = filled(ArrayFilm(frames))
+    assert marked[covered].all()
+    assert marked.mean() < 3 * covered.mean()
+    assert not marked[40:100].any()
+    assert abs(without_blanks(ArrayFilm(frames)).frame(3)[covered].mean() - 110) < 15
+
+
+def test_a_bright_fibre_or_a_bright_cell_is_no_scale_bar() -> None:
+    frames = film(24)
+    frames[:, 30:100, 40:43] = 255
+    frames[:, 50:56, 90:98] = 255
+    assert not filled(ArrayFilm(frames)).any()
+
+
+def test_a_scene_that_saturates_keeps_what_saturates() -> None:
+    frames = film(24)
+    covered = written_on(frames, 255)
+    blots = np.random.default_rng(0).integers([30, 10], [110, 110], (40, 2))
+    for y, x in blots:
+        frames[:, y : y + 7, x : x + 7] = 255
+    assert not filled(ArrayFilm(frames)).any()
+    assert covered.any()
+
+
+def test_a_film_without_noise_does_not_tell_writing_by_what_stays_the_same() -> None:
+    frames = np.repeat(film(1), 24, axis=0)
+    written_on(frames, 255)
+    assert not filled(ArrayFilm(frames)).any()
