@@ -25,6 +25,7 @@ from memtrack.models import load_model
 from memtrack.motion import FilmFeatures
 from memtrack.pipeline import DetectionSettings, detect_film
 from memtrack.pruning import faint, prune
+from memtrack.refinement import refined
 from memtrack.scene import Scene
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
@@ -56,6 +57,10 @@ def main() -> None:
     engine.run(padded(features[0]))
     maps = timed("net", n, lambda: [engine.run(padded(f)) for f in features])
     found = timed("decoding", n, lambda: [decoder.decode(m, film.height, film.width) for m in maps])
+    refiner = model.refiner()
+    if refiner is not None:
+        refined(found[0], features[0], refiner)
+        found = timed("refining", n, lambda: [refined(d, f, refiner) for d, f in zip(found, features, strict=True)])
     settings = DetectionSettings(threads=args.threads)
     pruner = settings.pruner(model.card)
     timed("pruning", n, lambda: [faint(d, prune(d, pruner)[0], pruner) for d in found])

@@ -17,6 +17,7 @@ from memtrack.errors import EngineUnavailableError, ModelNotFoundError
 from memtrack.film import ArrayFilm
 from memtrack.models import load_model
 from memtrack.motion import MOTION
+from memtrack.refinement import EDGE_PX
 from memtrack.retinanet import OUTPUTS
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
@@ -84,6 +85,10 @@ crop = 64
 warm_up = 2
 average = 0.5
 checkpoint_every = 4
+[refinement]
+iterations = 2
+batch = 4
+widths = [4, 4, 6]
 """
     path = tmp_path / "mine.toml"
     path.write_text(text, encoding="utf-8")
@@ -105,3 +110,54 @@ checkpoint_every = 4
     capsys.readouterr()
     assert models_command.run(arguments(models_command)) == 0
     assert "mine 1" in capsys.readouterr().out
+
+
+@pytest.mark.filterwarnings("ignore")  # as above
+def test_a_training_can_keep_the_net_and_learn_its_centres_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("nncf")
+    monkeypatch.setenv("MEMTRACK_MODELS", str(tmp_path / "models"))
+    text = """
+[model]
+name = "centred"
+widths = [16, 32, 48, 64]
+depths = [1, 2, 1]
+start_from = "default 7"
+[[training]]
+family = "water"
+count = 2
+seed = 1
+size = 128
+frames = 3
+[[validation]]
+family = "water"
+count = 1
+seed = 5
+size = 128
+frames = 3
+[optimisation]
+iterations = 0
+[refinement]
+iterations = 3
+batch = 4
+widths = [4, 4, 6]
+"""
+    path = tmp_path / "centred.toml"
+    path.write_text(text, encoding="utf-8")
+    assert command.run(arguments(command, str(path))) == 0
+    kept, made = load_model("default", "7").card, load_model("centred").card
+    assert {name: made.files[name] for name in kept.files} == kept.files
+    assert (made.thresholds, made.decoder) == (kept.thresholds, kept.decoder)
+    crops = np.full((2, len(MOTION.channels), EDGE_PX, EDGE_PX), NEUTRAL, np.uint8)
+    refiner = load_model("centred").refiner()
+    assert refiner is not None
+    first = refiner.estimates(crops)
+    assert np.isfinite(first).all()
+    # The next one goes on from there.
+    again = text.replace("centred", "again").replace("default 7", "centred").replace("iterations = 3", "iterations = 1")
+    path.write_text(again + "learning_rate = 1e-9\n", encoding="utf-8")
+    assert command.run(arguments(command, str(path))) == 0
+    refiner = load_model("again").refiner()
+    assert refiner is not None
+    np.testing.assert_allclose(refiner.estimates(crops), first, atol=0.01)

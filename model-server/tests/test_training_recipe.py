@@ -35,7 +35,11 @@ def test_the_shipped_recipe_can_be_read_and_is_the_shipped_models() -> None:
         ("[model]\nname = 'a'\ncell_length_px = [12.0, 4]", "cell_length_px is 12 to 4, give the smaller length first"),
         ("[model]\nname = 'a'\nbox_size_px = nan", "box_size_px is nan, use 1 to 1000"),
         ("[model]\nname = 'a'\n[optimisation]\ncrop = 100", r"\[optimisation\]: crop is 100, use a multiple of 16"),
-        ("[model]\nname = 'a'\n[optimisation]\niterations = 0", r"\[optimisation\]: iterations is 0, use 1 to 1e\+08"),
+        (
+            "[model]\nname = 'a'\n[optimisation]\niterations = 0",
+            "iterations is 0, so the net stays as it is: give a",
+        ),
+        ("[model]\nname = 'a'\n[refinement]\nbatch = 1", r"\[refinement\]: batch is 1, use 2 to 65536"),
         ("[model]\nname = 'a'\n[optimisation]\nlearning_rate = -1", "learning_rate is -1, use 1e-09 to 10"),
         ("[model]\nname = 'a'\n[loss]\nalpha = 2", r"\[loss\]: alpha is 2, use 0 to 1"),
         (

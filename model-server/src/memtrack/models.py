@@ -22,13 +22,16 @@ from typing import Any
 
 from memtrack.detections import Level
 from memtrack.detector import Decoder, Engine
-from memtrack.engines import OpenVinoEngine, TorchEngine
+from memtrack.engines import OpenVinoEngine, OpenVinoRefiner, TorchEngine, TorchRefiner
 from memtrack.errors import EngineUnavailableError, ModelCorruptError, ModelNotFoundError, SettingsError
 from memtrack.motion import FeatureSpec
+from memtrack.refinement import Refiner
 
 CARD = "model.json"
 WEIGHTS = "weights.safetensors"
 OPENVINO = "openvino.xml"
+CENTRE_WEIGHTS = "centres.safetensors"
+CENTRE_OPENVINO = "centres.xml"
 NAME = re.compile(r"[a-z0-9_.-]{1,64}")
 CRITERIA = ("max_precision", "max_f1")
 ENGINES = ("auto", "openvino", "torch")
@@ -39,7 +42,8 @@ class ModelCard:
     """Everything needed to use a model and to judge it; stored as `model.json`.
 
     cell_length_px: smallest and largest length of a cell the model knows, in pixels. thresholds: for each criterion one
-    score a level. files: SHA-256 of each file beside the card.
+    score a level. files: SHA-256 of each file beside the card. refiner: `widths` of the net that refines centres, empty
+    for none.
     """
 
     name: str
@@ -52,6 +56,7 @@ class ModelCard:
     levels: tuple[str, ...]
     cell_length_px: tuple[float, float]
     thresholds: dict[str, tuple[float, ...]]
+    refiner: dict[str, Any] = field(default_factory=dict)
     training: dict[str, Any] = field(default_factory=dict)
     results: dict[str, Any] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
@@ -128,6 +133,21 @@ class Model:
         if self.engine_kind(kind) == "openvino":
             return OpenVinoEngine(self.folder / OPENVINO, threads)
         return TorchEngine(self.card.architecture, len(self.card.features.channels), self.weights)
+
+    def refiner(self, kind: str = "auto", *, threads: int = 1) -> Refiner | None:
+        """The net that refines centres, by the engine that `kind` comes to; None where the model has none.
+
+        Raises:
+            SettingsError: no such engine.
+            EngineUnavailableError: the model has no form of it, or its library is not installed.
+        """
+        kind = self.engine_kind(kind)
+        if not self.card.refiner:
+            return None
+        if kind == "openvino":
+            return OpenVinoRefiner(self.folder / CENTRE_OPENVINO, threads)
+        channels = len(self.card.features.channels)
+        return TorchRefiner(self.card.refiner["widths"], channels, self.folder / CENTRE_WEIGHTS)
 
 
 def user_models() -> Path:

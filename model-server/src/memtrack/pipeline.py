@@ -24,6 +24,7 @@ from memtrack.models import CRITERIA, ENGINES, Model, ModelCard
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
 from memtrack.pruning import PrunerSettings, faint, prune
+from memtrack.refinement import Refiner, refined
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
@@ -111,9 +112,10 @@ def detect_film(
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
     pruner, region = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale), settings.region
-    engine = model.engine(settings.engine, threads=settings.threads)
-
     threads = settings.threads
+    engine = model.engine(settings.engine, threads=threads)
+    refiner = model.refiner(settings.engine, threads=threads)
+
     stabilising = _at(report, Stage.STABILISING)
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     if isinstance(film, FilledFilm):
@@ -134,7 +136,7 @@ def detect_film(
     )
     features = FilmFeatures(scene, model.card.features)
     frames = (features.channels(i) for i in range(count))
-    with ahead(partial(_candidates, engine, model.card), frames, threads) as found:
+    with ahead(partial(_candidates, engine, refiner, model.card), frames, threads) as found:
         for i, on_grid in enumerate(found):
             done = i + 1
             report(Stage.DETECTING, done, count)
@@ -145,9 +147,11 @@ def detect_film(
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
 
 
-def _candidates(engine: Engine, card: ModelCard, channels: list[Channel]) -> Detections:
+def _candidates(engine: Engine, refiner: Refiner | None, card: ModelCard, channels: list[Channel]) -> Detections:
     """Of one frame; with contrasts where the model's features hold the signed deviation."""
     found, names = detect(engine, card.decoder, channels), card.features.channels
+    if refiner is not None:
+        found = refined(found, channels, refiner)
     return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
 
 

@@ -25,7 +25,8 @@ RARE = -4.6
 """Bias of a new classifier: bacteria are found in one place of a hundred (focal loss, Lin et al. 2017, pi = 0.01)."""
 
 
-def _convolution(inputs: int, outputs: int, stride: int = 1, size: int = 3) -> nn.Sequential:
+def convolution(inputs: int, outputs: int, stride: int = 1, size: int = 3) -> nn.Sequential:
+    """A convolution, batch normalisation, and what is positive of it."""
     layer = nn.Conv2d(inputs, outputs, size, stride, size // 2, bias=False)
     return nn.Sequential(layer, nn.BatchNorm2d(outputs), nn.ReLU())
 
@@ -33,7 +34,7 @@ def _convolution(inputs: int, outputs: int, stride: int = 1, size: int = 3) -> n
 class _Residual(nn.Module):
     def __init__(self, width: int) -> None:
         super().__init__()
-        self.first = _convolution(width, width)
+        self.first = convolution(width, width)
         self.second = nn.Sequential(nn.Conv2d(width, width, 3, 1, 1, bias=False), nn.BatchNorm2d(width))
 
     def forward(self, x: Tensor) -> Tensor:
@@ -52,14 +53,14 @@ class CompactRetinaNet(nn.Module):
     def __init__(self, channels: int, widths: tuple[int, ...], depths: tuple[int, ...]) -> None:
         super().__init__()
         w2, w4, w8, w16 = widths
-        self.stem = nn.Sequential(_convolution(channels, w2, 2), _convolution(w2, w4, 2))
+        self.stem = nn.Sequential(convolution(channels, w2, 2), convolution(w2, w4, 2))
         self.at4 = nn.Sequential(*[_Residual(w4) for _ in range(depths[0])])
-        self.at8 = nn.Sequential(_convolution(w4, w8, 2), *[_Residual(w8) for _ in range(depths[1])])
-        self.at16 = nn.Sequential(_convolution(w8, w16, 2), *[_Residual(w16) for _ in range(depths[2])])
+        self.at8 = nn.Sequential(convolution(w4, w8, 2), *[_Residual(w8) for _ in range(depths[1])])
+        self.at16 = nn.Sequential(convolution(w8, w16, 2), *[_Residual(w16) for _ in range(depths[2])])
         self.lateral16 = nn.Conv2d(w16, w8, 1)
-        self.lateral8 = _convolution(w8, w4, size=1)
-        self.merge = _convolution(w4, w4)
-        self.head = _convolution(w4, w4)
+        self.lateral8 = convolution(w8, w4, size=1)
+        self.merge = convolution(w4, w4)
+        self.head = convolution(w4, w4)
         self.predict = nn.Conv2d(w4, OUTPUTS, 1)
         _start_silent(self.predict)
 
@@ -96,7 +97,7 @@ class ResNet50Fpn(nn.Module):
         trunk.conv1 = nn.Conv2d(channels, 64, 7, 2, 3, bias=False)
         layers = {f"layer{i}": str(i) for i in range(1, 5)}
         self.trunk = BackboneWithFPN(trunk, layers, [256, 512, 1024, 2048], 256)
-        self.head = nn.Sequential(*[_convolution(256, 256) for _ in range(4)])
+        self.head = nn.Sequential(*[convolution(256, 256) for _ in range(4)])
         self.predict = nn.Conv2d(256, OUTPUTS, 3, 1, 1)
         _start_silent(self.predict)
 

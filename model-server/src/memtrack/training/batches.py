@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float32, Int, UInt8
+from jaxtyping import Bool, Float32, Int, UInt8
 
 from memtrack.channels import NEUTRAL
 from memtrack.motion import FeatureSpec
@@ -28,7 +28,7 @@ class Batches:
         loss: LossSettings,
     ) -> None:
         self.films, self.crop, self.size, self.stride, self.loss = films, crop, size, stride, loss
-        self.signed = np.array([c == "grey" or c.startswith("deviation") for c in spec.channels])
+        self.signed = signed_channels(spec)
         self.difficulty = np.ones(len(films))
         # One long row of noise, of which crops take pieces: drawing it anew took a quarter of a training's time.
         pixels = int(self.signed.sum()) * crop * crop
@@ -77,10 +77,20 @@ class Batches:
             part, rows[:, [X, Y]] = part.transpose(0, 2, 1), rows[:, [Y, X]]
         part = np.ascontiguousarray(part)
         if rng.random() < 0.5:  # dark on bright is as good as bright on dark
-            part[self.signed] = np.uint8(0) - np.maximum(part[self.signed], 1)  # 256 - v, in 8 bits
+            part[self.signed] = inverted(part[self.signed])
         if rng.random() < 0.3 and self.signed.any():  # a film with more noise
             signed = part[self.signed]
             first = int(rng.integers(len(self._noise) - signed.size))
             noise = self._noise[first : first + signed.size].reshape(signed.shape) * np.float32(rng.uniform(1, 8))
             part[self.signed] = np.clip(signed + noise, 0, 255).astype(np.uint8)
         return part, rows
+
+
+def signed_channels(spec: FeatureSpec) -> Bool[np.ndarray, " channel"]:
+    """Which channels say whether something is brighter or darker."""
+    return np.array([c == "grey" or c.startswith("deviation") for c in spec.channels])
+
+
+def inverted(values: UInt8[np.ndarray, "..."]) -> UInt8[np.ndarray, "..."]:
+    """Bright for dark in signed channels: 256 - v, in 8 bits."""
+    return np.uint8(0) - np.maximum(values, 1)

@@ -50,7 +50,10 @@ class ModelSettings:
 
 @dataclass(frozen=True, slots=True)
 class Optimisation:
-    """AdamW with warm-up and a cosine fall. crop in pixels; batch in crops; checkpoint_every in iterations."""
+    """AdamW with warm-up and a cosine fall. crop in pixels; batch in crops; checkpoint_every in iterations.
+
+    iterations: 0 keeps the net of the model to start from as it is, thresholds and all.
+    """
 
     iterations: int = 4000
     batch: int = 8
@@ -72,8 +75,26 @@ class Optimisation:
 
 
 @dataclass(frozen=True, slots=True)
+class Refinement:
+    """The training of the net that refines centres, after the other and likewise; it goes on from that of the model to
+    start from, if that has one of these widths. iterations: 0 for no such net. batch in crops. widths: see
+    `memtrack.centre_net.CentreNet`."""
+
+    iterations: int = 4000
+    batch: int = 128
+    widths: tuple[int, int, int] = (32, 48, 64)
+    learning_rate: float = 1e-3
+    weight_decay: float = 1e-3
+    warm_up: int = 100
+    clip: float = 5.0
+    average: float = 0.998
+    seed: int = 1
+    bfloat16: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class TrainingConfig:
-    """A whole training: model, films for learning and for choosing thresholds, loss and optimisation."""
+    """A whole training: model, films for learning and for choosing thresholds, loss, optimisation and refinement."""
 
     model: ModelSettings
     training: tuple[SimulatedSet, ...] = ()
@@ -81,8 +102,11 @@ class TrainingConfig:
     annotated: tuple[Annotated, ...] = ()
     loss: LossSettings = field(default_factory=LossSettings)
     optimisation: Optimisation = field(default_factory=Optimisation)
+    refinement: Refinement = field(default_factory=Refinement)
 
     def __post_init__(self) -> None:
+        if not self.optimisation.iterations and not self.model.start_from:
+            raise SettingsError("iterations is 0, so the net stays as it is: give a model to start_from")
         roles = {a.role for a in self.annotated}
         if not (self.training or "training" in roles) or not (self.validation or "validation" in roles):
             raise SettingsError("a training needs at least one film for training and one for validation")
@@ -102,7 +126,7 @@ def read_config(path: Path) -> TrainingConfig:
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SettingsError(f"the training recipe {path} cannot be read: {error}") from error
     tables = {"training": SimulatedSet, "validation": SimulatedSet, "annotated": Annotated}
-    known = {"model", "loss", "optimisation", *tables}
+    known = {"model", "loss", "optimisation", "refinement", *tables}
     if set(values) - known:
         raise SettingsError(f"{path.name}: unknown part {sorted(set(values) - known)}: use {', '.join(sorted(known))}")
     if "model" not in values:
@@ -115,6 +139,7 @@ def read_config(path: Path) -> TrainingConfig:
         model=_make(ModelSettings, values["model"], f"{path.name} [model]"),
         loss=_make(LossSettings, values.get("loss", {}), f"{path.name} [loss]"),
         optimisation=_make(Optimisation, values.get("optimisation", {}), f"{path.name} [optimisation]"),
+        refinement=_make(Refinement, values.get("refinement", {}), f"{path.name} [refinement]"),
         **rows,
     )
 
@@ -156,7 +181,7 @@ _CHOICES: dict[str, Collection[str]] = {
 _RANGES: dict[type, dict[str, tuple[float, float]]] = {
     ModelSettings: {"widths": (1, 4096), "depths": (0, 64), "cell_length_px": (1, 200), "box_size_px": (1, 1000)},
     Optimisation: {
-        "iterations": (1, 1e8),
+        "iterations": (0, 1e8),
         "batch": (1, 4096),
         "crop": (16, 4096),
         "learning_rate": (1e-9, 10),
@@ -165,6 +190,17 @@ _RANGES: dict[type, dict[str, tuple[float, float]]] = {
         "clip": (1e-9, 1e9),
         "average": (0, 0.999999),
         "checkpoint_every": (1, 1e8),
+        "seed": (0, 1e9),
+    },
+    Refinement: {
+        "iterations": (0, 1e8),
+        "batch": (2, 65536),
+        "widths": (1, 4096),
+        "learning_rate": (1e-9, 10),
+        "weight_decay": (0, 1),
+        "warm_up": (0, 1e8),
+        "clip": (1e-9, 1e9),
+        "average": (0, 0.999999),
         "seed": (0, 1e9),
     },
     LossSettings: {

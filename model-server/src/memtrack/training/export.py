@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,17 +11,17 @@ import safetensors.torch
 import torch
 from torch import nn
 
-from memtrack.models import OPENVINO, WEIGHTS
 
-
-def export(net: nn.Module, samples: Iterable[np.ndarray], folder: Path, *, quantise: bool = True) -> dict[str, Path]:
-    """Writes the net's files into `folder`.
+def export(
+    net: nn.Module, inputs: Sequence[np.ndarray], weights: Path, graph: Path, *, quantise: bool
+) -> dict[str, Path]:
+    """Writes the files `weights` and `graph`, and what belongs to the graph beside it.
 
     Args:
         net: the net, in any mode, on any device.
-        samples: features [channel, y, x] of typical frames, which set the ranges of the 8-bit numbers.
-        folder: an existing folder.
-        quantise: 8-bit convolutions; False keeps 32-bit ones.
+        inputs: some that the net takes, [n, channel, y, x]: they set the ranges of 8-bit numbers.
+        weights, graph: in existing folders.
+        quantise: 8-bit convolutions in the graph; False keeps 32-bit ones.
 
     Returns:
         Path of each file by its name in the registry.
@@ -33,13 +33,11 @@ def export(net: nn.Module, samples: Iterable[np.ndarray], folder: Path, *, quant
     state = {
         name: value.contiguous() for name, value in net.state_dict().items() if not name.endswith("num_batches_tracked")
     }
-    safetensors.torch.save_file(state, folder / WEIGHTS)
-    batch = [sample[None] for sample in samples]
+    safetensors.torch.save_file(state, weights)
     with torch.inference_mode():
-        graph = openvino.convert_model(net, example_input=torch.from_numpy(batch[0]))
-    graph.reshape([1, batch[0].shape[1], -1, -1])
+        converted = openvino.convert_model(net, example_input=torch.from_numpy(inputs[0]))
+    converted.reshape([inputs[0].shape[0], inputs[0].shape[1], -1, -1])
     if quantise:
-        graph = nncf.quantize(graph, nncf.Dataset(batch), subset_size=len(batch))
-    openvino.save_model(graph, folder / OPENVINO, compress_to_fp16=True)
-    names = (WEIGHTS, OPENVINO, Path(OPENVINO).with_suffix(".bin").name)
-    return {name: folder / name for name in names}
+        converted = nncf.quantize(converted, nncf.Dataset(inputs), subset_size=len(inputs))
+    openvino.save_model(converted, graph, compress_to_fp16=True)
+    return {path.name: path for path in (weights, graph, graph.with_suffix(".bin"))}

@@ -19,11 +19,11 @@ import torch
 from torch import nn
 
 from memtrack.errors import ModelNotFoundError, SettingsError
-from memtrack.models import load_model
+from memtrack.models import Model, load_model
 from memtrack.motion import SPECS
 from memtrack.retinanet import STRIDE, Net, build
 from memtrack.training.batches import Batches
-from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
+from memtrack.training.config import ModelSettings, Optimisation, Refinement, TrainingConfig
 from memtrack.training.figures import LOSSES
 from memtrack.training.loss import detection_loss
 from memtrack.training.samples import FilmSamples
@@ -66,14 +66,23 @@ def new_net(model: ModelSettings) -> Net:
     if model.start_from:
         import safetensors.torch
 
-        name, _, version = model.start_from.partition(" ")
-        start = load_model(name, version or None)
-        if start.card.features != SPECS[model.features] or start.card.architecture != architecture(model):
-            raise ModelNotFoundError(
-                f"model {model.start_from} has other features or another net than this training: start from one like it"
-            )
-        net.load_state_dict(safetensors.torch.load_file(start.weights), strict=False)
+        net.load_state_dict(safetensors.torch.load_file(start_model(model).weights), strict=False)
     return net
+
+
+def start_model(model: ModelSettings) -> Model:
+    """The model to start from.
+
+    Raises:
+        ModelNotFoundError: it is missing, or has other features or another net.
+    """
+    name, _, version = model.start_from.partition(" ")
+    start = load_model(name, version or None)
+    if start.card.features != SPECS[model.features] or start.card.architecture != architecture(model):
+        raise ModelNotFoundError(
+            f"model {model.start_from} has other features or another net than this training: start from one like it"
+        )
+    return start
 
 
 def optimise(
@@ -105,7 +114,7 @@ def optimise(
     if first == 0:
         (workspace.folder / LOSSES).unlink(missing_ok=True)
     kind = device.split(":")[0]
-    short = settings.bfloat16 and _computes_bfloat16(kind)
+    short = settings.bfloat16 and computes_bfloat16(kind)
     losses: list[float] = []
     started = time.monotonic()
     for iteration in range(first, settings.iterations):
@@ -137,14 +146,14 @@ def optimise(
     return trained
 
 
-def _computes_bfloat16(kind: str) -> bool:
+def computes_bfloat16(kind: str) -> bool:
     """Whether this machine is quicker with bfloat16; without AVX-512 it takes a processor ten times as long."""
     if kind == "cpu":
         return torch.backends.cpu.get_cpu_capability() == "AVX512"
     return kind == "cuda" and torch.cuda.is_bf16_supported()
 
 
-def schedule(iteration: int, settings: Optimisation) -> float:
+def schedule(iteration: int, settings: Optimisation | Refinement) -> float:
     """Factor of the learning rate: rises over the warm-up, then falls to 1 % along half a cosine."""
     if iteration < settings.warm_up:
         return (iteration + 1) / settings.warm_up

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The whole training: make the films' samples, optimise, calibrate, choose thresholds, register. Needs torch."""
+"""The whole training: samples, detector, calibration, thresholds, refiner, registration. Needs torch."""
 
 from __future__ import annotations
 
@@ -7,22 +7,25 @@ import dataclasses
 import json
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from torch import nn
 
+from memtrack.channels import NEUTRAL
 from memtrack.detections import Level
-from memtrack.detector import Decoder
-from memtrack.engines import OpenVinoEngine
-from memtrack.models import OPENVINO, Model, ModelCard, register
+from memtrack.detector import Decoder, Engine
+from memtrack.engines import OpenVinoEngine, OpenVinoRefiner
+from memtrack.models import CENTRE_OPENVINO, CENTRE_WEIGHTS, OPENVINO, WEIGHTS, Model, ModelCard, register
 from memtrack.motion import SPECS
+from memtrack.refinement import EDGE_PX
 from memtrack.retinanet import STRIDE
 from memtrack.training import figures, thresholds
+from memtrack.training.centres import centre_samples, optimise_centres
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
 from memtrack.training.films import annotated_samples, simulated_samples
-from memtrack.training.optimise import Report, Workspace, architecture, new_net, optimise, read_checkpoint
+from memtrack.training.optimise import Report, Workspace, architecture, new_net, optimise, read_checkpoint, start_model
 from memtrack.training.samples import FilmSamples
 
 CALIBRATION_FRAMES = 64
@@ -66,54 +69,96 @@ def train(
             + annotated_samples(own, spec, config.model.cell_length_px, base, seed=config.optimisation.seed)
         )
     training, validation = parts
-    net = optimise(config, training, workspace, device, report)
-    minutes = (time.monotonic() - started) / 60
-    model = finish(config, net, training, validation, workspace, root, minutes=minutes, report=report)
-    workspace.checkpoint.unlink(missing_ok=True)
-    return model
-
-
-def finish(
-    config: TrainingConfig,
-    net: nn.Module,
-    training: list[FilmSamples],
-    validation: list[FilmSamples],
-    workspace: Workspace,
-    root: Path | None,
-    *,
-    minutes: float,
-    report: Report,
-) -> Model:
-    """Exports, calibrates, chooses thresholds and registers a trained net."""
     with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        files = export(net, typical_frames(training), folder)
-        engine = OpenVinoEngine(folder / OPENVINO)
-        raw = Decoder(stride=STRIDE, box_size_px=config.model.box_size_px, floor=0.1)
-        first = thresholds.score_films(validation, engine, raw)
-        slope, offset = thresholds.calibration(first.scores, first.found)
-        decoder = dataclasses.replace(raw, slope=slope, offset=offset, floor=0.05)
-        scored = thresholds.score_films(validation, engine, decoder)
-        curves = {level.name.lower(): thresholds.curve(scored, level) for level in Level}
-        chosen = thresholds.choose(scored)
-        figures.write(workspace.folder, curves, chosen)
-        results = summary(scored, validation, engine, decoder)
+        detector = _detector(config, training, validation, workspace, Path(temporary), device, report)
+        centre_files = _centre_files(config, detector, training, Path(temporary), device, report)
+        refiner = OpenVinoRefiner(centre_files[CENTRE_OPENVINO]) if centre_files else None
+        scored = thresholds.score_films(validation, detector.engine, detector.decoder, refiner)
+        results = summary(scored, validation, detector.engine, detector.decoder)
         report(json.dumps(results))
+        minutes = (time.monotonic() - started) / 60
         card = ModelCard(
             name=config.model.name,
             version="0",
             description=config.model.description,
             licence=config.model.licence,
             architecture=architecture(config.model),
-            features=SPECS[config.model.features],
-            decoder=decoder,
+            features=spec,
+            decoder=detector.decoder,
             levels=tuple(level.name.lower() for level in Level),
             cell_length_px=config.model.cell_length_px,
-            thresholds={criterion: tuple(round(t, 4) for t in values) for criterion, values in chosen.items()},
+            thresholds=detector.thresholds,
+            refiner={"widths": list(config.refinement.widths)} if refiner else {},
             training={"config": dataclasses.asdict(config), "minutes": round(minutes, 1)},
             results=results,
         )
-        return register(card, files, root)
+        model = register(card, detector.files | centre_files, root)
+    workspace.checkpoint.unlink(missing_ok=True)
+    return model
+
+
+@dataclass(frozen=True, slots=True)
+class _Detector:
+    """A trained net, ready to run, with what its card says of it and its files of the registry."""
+
+    engine: Engine
+    decoder: Decoder
+    thresholds: dict[str, tuple[float, ...]]
+    files: dict[str, Path]
+
+
+def _detector(
+    config: TrainingConfig,
+    training: list[FilmSamples],
+    validation: list[FilmSamples],
+    workspace: Workspace,
+    folder: Path,
+    device: str,
+    report: Report,
+) -> _Detector:
+    """Trains, exports into `folder`, calibrates and chooses thresholds; or takes the model to start from as it is."""
+    if not config.optimisation.iterations:
+        start = start_model(config.model)
+        centres = [Path(name).stem for name in (CENTRE_WEIGHTS, CENTRE_OPENVINO)]
+        kept = {name: start.folder / name for name in start.card.files if Path(name).stem not in centres}
+        return _Detector(start.engine(), start.card.decoder, start.card.thresholds, kept)
+    net = optimise(config, training, workspace, device, report)
+    typical = [frame[None] for frame in typical_frames(training)]
+    files = export(net, typical, folder / WEIGHTS, folder / OPENVINO, quantise=True)
+    engine = OpenVinoEngine(folder / OPENVINO)
+    raw = Decoder(stride=STRIDE, box_size_px=config.model.box_size_px, floor=0.1)
+    first = thresholds.score_films(validation, engine, raw)
+    slope, offset = thresholds.calibration(first.scores, first.found)
+    decoder = dataclasses.replace(raw, slope=slope, offset=offset, floor=0.05)
+    scored = thresholds.score_films(validation, engine, decoder)
+    curves = {level.name.lower(): thresholds.curve(scored, level) for level in Level}
+    chosen = thresholds.choose(scored)
+    figures.write(workspace.folder, curves, chosen)
+    rounded = {criterion: tuple(round(t, 4) for t in values) for criterion, values in chosen.items()}
+    return _Detector(engine, decoder, rounded, files)
+
+
+def _centre_files(
+    config: TrainingConfig,
+    detector: _Detector,
+    training: list[FilmSamples],
+    folder: Path,
+    device: str,
+    report: Report,
+) -> dict[str, Path]:
+    """Trains the net that refines the detector's centres and exports it into `folder`; its files, or none."""
+    if not config.refinement.iterations:
+        return {}
+    samples = centre_samples(training, detector.engine, detector.decoder)
+    if not len(samples.crops):
+        report("no bacterium of the training films was found: centres are not refined")
+        return {}
+    start = start_model(config.model) if config.model.start_from else None
+    alike = start is not None and start.card.refiner.get("widths") == list(config.refinement.widths)
+    weights = start.folder / CENTRE_WEIGHTS if start is not None and alike else None
+    net = optimise_centres(config.refinement, samples, SPECS[config.model.features], device, report, weights)
+    crop = np.full((1, *samples.crops.shape[1:2], EDGE_PX, EDGE_PX), NEUTRAL, np.uint8)
+    return export(net, [crop], folder / CENTRE_WEIGHTS, folder / CENTRE_OPENVINO, quantise=False)
 
 
 def typical_frames(films: list[FilmSamples]) -> list[np.ndarray]:
@@ -122,9 +167,7 @@ def typical_frames(films: list[FilmSamples]) -> list[np.ndarray]:
     return [np.ascontiguousarray(films[i].features[len(films[i]) // 2]) for i in chosen]
 
 
-def summary(
-    scored: thresholds.Scored, films: list[FilmSamples], engine: OpenVinoEngine, decoder: Decoder
-) -> dict[str, object]:
+def summary(scored: thresholds.Scored, films: list[FilmSamples], engine: Engine, decoder: Decoder) -> dict[str, object]:
     """Figures of the card: best F1 over all and by family, at one threshold, and the error of the centres."""
     whole = thresholds.curve(scored)
     if not len(whole.thresholds):

@@ -12,6 +12,7 @@ from jaxtyping import Bool, Float, Float32, Int
 from memtrack.boxes import non_maximum_suppression
 from memtrack.detections import Detections, Level
 from memtrack.detector import Decoder, Engine, detect
+from memtrack.refinement import Refiner, refined
 from memtrack.training.samples import IGNORED, LEVEL, FilmSamples, X, Y
 
 MATCH_PX = 8.0
@@ -54,13 +55,17 @@ class Curve:
         return f1
 
 
-def score_films(films: Sequence[FilmSamples], engine: Engine, decoder: Decoder, nms_iou: float = 0.7) -> Scored:
-    """Runs the detector on every frame of `films` and matches its boxes to the bacteria."""
+def score_films(
+    films: Sequence[FilmSamples], engine: Engine, decoder: Decoder, refiner: Refiner | None = None, nms_iou: float = 0.7
+) -> Scored:
+    """Runs the detector, and the refiner if there is one, on every frame of `films` and matches boxes to bacteria."""
     parts: list[tuple[np.ndarray, ...]] = []
     truths, frames = np.zeros(len(Level), np.int64), 0
     for film in films:
         for features, truth in zip(film.features, film.truth, strict=True):
             found = detect(engine, decoder, np.ascontiguousarray(features))
+            if refiner is not None:
+                found = refined(found, features, refiner)
             found = found.select(non_maximum_suppression(found.boxes, found.scores, nms_iou))
             parts.append(match(found, truth))
             truths += np.bincount(truth[truth[:, IGNORED] == 0, LEVEL].astype(int), minlength=len(Level))
