@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
@@ -27,9 +27,10 @@ def brightest(crops: Crops) -> np.ndarray:
     return np.stack([columns, rows], axis=1) - EDGE_PX // 2
 
 
-def boxes_at(*centres: tuple[float, float]) -> Detections:
+def boxes_at(*centres: tuple[float, float], scores: Sequence[float] = ()) -> Detections:
     boxes = square_boxes(np.array(centres, np.float64).reshape(-1, 2), 30.0).astype(np.float32)
-    return Detections(boxes, np.full(len(boxes), 0.9, np.float32), np.zeros(len(boxes), np.int8))
+    given = np.array(scores or [0.9] * len(boxes), np.float32)
+    return Detections(boxes, given, np.zeros(len(boxes), np.int8))
 
 
 def centres_of(found: Detections) -> np.ndarray:
@@ -71,6 +72,12 @@ def test_boxes_that_share_a_centre_are_one_crop_and_stay_together() -> None:
     moved = refined(boxes_at((20, 30), (50, 40), (20, 30)), np.zeros((1, 80, 100), np.uint8), Saying(answer))
     np.testing.assert_allclose(centres_of(moved), [[20.25, 29.5], [50.25, 39.5], [20.25, 29.5]], atol=1e-4)
     assert asked == [2]
+
+
+def test_boxes_so_faint_that_nothing_was_learnt_of_them_stay() -> None:
+    found = boxes_at((20, 30), (50, 40), (50, 40), scores=[0.1, 0.1, 0.2])
+    moved = refined(found, np.zeros((1, 80, 100), np.uint8), Saying([1.0, 1.0]))
+    np.testing.assert_allclose(centres_of(moved), [[20, 30], [51, 41], [51, 41]], atol=1e-4)
 
 
 def test_no_centre_goes_far_or_out_of_the_frame() -> None:

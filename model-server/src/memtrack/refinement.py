@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float, Float32, UInt8
+from jaxtyping import Float, Float32, Float64, UInt8
 
 from memtrack.channels import NEUTRAL
 from memtrack.detections import Detections
@@ -24,6 +24,8 @@ EDGE_PX = 24
 """Edge of a crop: a long bacterium with its halo. The pixel at `EDGE_PX // 2` is its centre."""
 DETECTOR_ERROR_PX = 0.4
 """How far off the detector's centre is along x or y, in the mean of both estimates: 0.3 to 0.5 are as good."""
+LEAST_SCORE = 0.15
+"""Fainter boxes are neither learnt from nor moved: most are of no bacterium, and each takes time."""
 FURTHEST_PX = 4.0
 """A centre is not moved further along x or y: half the distance within which two boxes are of one bacterium."""
 
@@ -39,26 +41,35 @@ class Refiner(Protocol):
 
 
 def refined(found: Detections, channels: Features, refiner: Refiner) -> Detections:
-    """`found`, each box moved to the mean of where detector and refiner see its centre, weighted by how exact they are.
+    """`found`, boxes moved to the mean of where detector and refiner see their centre, weighted by how exact they are.
 
-    Boxes that share a centre stay together.
+    Boxes that share a centre stay together; where none of them is scored `LEAST_SCORE`, they stay where they are.
 
     Args:
         found: boxes in pixels of the channels.
         channels: features of the frame they were found in.
         refiner: of the model that found them.
     """
-    if not len(found):
-        return found
     centres, owner = np.unique((found.boxes[:, :2] + found.boxes[:, 2:]) / 2, axis=0, return_inverse=True)
+    best = np.zeros(len(centres), np.float32)
+    np.maximum.at(best, owner := owner.ravel(), found.scores)
+    moving = best >= LEAST_SCORE
+    if not moving.any():
+        return found
+    change = np.zeros_like(centres, np.float64)
+    change[moving] = _change(centres[moving], channels, refiner)
+    return replace(found, boxes=(found.boxes + np.tile(change[owner], 2)).astype(np.float32))
+
+
+def _change(centres: Float[np.ndarray, "n 2"], channels: Features, refiner: Refiner) -> Float64[np.ndarray, "n 2"]:
     estimates = refiner.estimates(crops_around(channels, centres, EDGE_PX)).astype(np.float64)
     # Far off the refiner is worse than the detector, whose net sees more of the surroundings.
     weight = 1 / (1 + np.exp(2 * estimates[:, 2:]) / DETECTOR_ERROR_PX**2)
     change = weight * (np.rint(centres) + estimates[:, :2] - centres)
     height, width = channels[0].shape
     edge = np.array([width, height]) - 0.5
-    change = (centres + change.clip(-FURTHEST_PX, FURTHEST_PX)).clip(-0.5, edge) - centres
-    return replace(found, boxes=(found.boxes + np.tile(change[owner.ravel()], 2)).astype(np.float32))
+    inside: np.ndarray = (centres + change.clip(-FURTHEST_PX, FURTHEST_PX)).clip(-0.5, edge) - centres
+    return inside
 
 
 def crops_around(channels: Features, centres: Float[np.ndarray, "n 2"], edge: int) -> Crops:

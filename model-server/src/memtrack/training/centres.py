@@ -18,15 +18,13 @@ from memtrack.boxes import non_maximum_suppression
 from memtrack.centre_net import CentreNet
 from memtrack.detector import Decoder, Engine, detect
 from memtrack.motion import FeatureSpec
-from memtrack.refinement import EDGE_PX, crops_around
+from memtrack.refinement import EDGE_PX, LEAST_SCORE, crops_around
 from memtrack.training.batches import inverted, signed_channels
 from memtrack.training.config import Refinement
 from memtrack.training.optimise import Report, computes_bfloat16, schedule
 from memtrack.training.samples import IGNORED, FilmSamples
 from memtrack.training.thresholds import MATCH_PX
 
-LEAST_SCORE = 0.15
-"""Fainter boxes are not learnt from: most are of no bacterium."""
 NUDGE_PX = 2
 """Crops are moved by up to this, so that what is learnt is where the bacterium is and not where the detector errs."""
 NUDGE_SPREAD_PX = 0.8

@@ -149,6 +149,7 @@ def _centre_files(
     """Trains the net that refines the detector's centres and exports it into `folder`; its files, or none."""
     if not config.refinement.iterations:
         return {}
+    report(f"finding the bacteria of {len(training)} films, whose centres are learnt then")
     samples = centre_samples(training, detector.engine, detector.decoder)
     if not len(samples.crops):
         report("no bacterium of the training films was found: centres are not refined")
