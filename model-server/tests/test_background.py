@@ -84,11 +84,14 @@ def test_places_that_no_frame_shows_are_as_bright_as_the_film() -> None:
 
 
 def test_strips_give_the_same_as_one_piece(monkeypatch: pytest.MonkeyPatch) -> None:
-    frames = np.random.default_rng(4).integers(0, 255, (7, 23, 11), np.uint8)
-    whole = background_of(frames)
+    rng = np.random.default_rng(4)
+    frames = rng.integers(0, 255, (7, 23, 11), np.uint8)
+    drift = rng.uniform(-2, 2, (7, 2))
+    motion = FilmMotion(drift, rng.uniform(0.9, 1.1, 7), pattern=rng.normal(0, 9, (23, 11)).astype(np.float32))
+    whole = background_of(frames, motion)
     monkeypatch.setattr("memtrack.background.STRIP_BYTES", 7 * 11 * 2 * 5)
     monkeypatch.setattr("memtrack.background.STRIP_BYTES_PER_PIXEL", 1)
-    np.testing.assert_array_equal(background_of(frames).median, whole.median)
+    np.testing.assert_array_equal(background_of(frames, motion).median, whole.median)
 
 
 def test_a_frame_is_read_as_often_whatever_its_size(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,13 +6,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float32, Float64, UInt16
+from jaxtyping import Float32, Float64, Shaped, UInt16
 
 from memtrack.film import Film
-from memtrack.resampling import read_shifted
+from memtrack.lookahead import ahead
+from memtrack.resampling import HALF_WIDTH, read_shifted
 from memtrack.stabilisation import FilmMotion
 
 Progress = Callable[[int, int], None]
@@ -21,7 +23,7 @@ SAMPLES = 96
 """Frames the median is taken of; more than this changes it by less than a tenth of the noise."""
 STRIP_BYTES, STRIP_BYTES_PER_PIXEL = 24 << 20, 64
 """What the samples of a strip may take, or for each pixel of a larger frame; the features take three times as much.
-Each strip reads and aligns all samples anew, so a larger frame has larger strips, not more."""
+Each strip reads all samples anew, so a larger frame has larger strips, not more."""
 LOWEST, HIGHEST = -64.0, 448.0
 """Grey levels of 8-bit films with room for a lamp's correction and the overshoot of resampling; they sort quicker in 16
 bits. Other films are sorted as they are, since one outlier would set the range for all."""
@@ -55,8 +57,16 @@ def split_drift(drift: Float64[np.ndarray, " 2"]) -> tuple[tuple[int, int], tupl
 
 def aligned_frame(film: Film, motion: FilmMotion, index: int) -> Float32[np.ndarray, "height width"]:
     """Frame `index`, corrected and moved back by the part of its drift below one pixel."""
-    values = film.frame(index).astype(np.float32)
-    return read_shifted(motion.corrected(values, index), *split_drift(motion.drift[index])[1])
+    return aligned(film.frame(index), motion, index, range(film.height))
+
+
+def aligned(
+    frame: Shaped[np.ndarray, "height width"], motion: FilmMotion, index: int, rows: range
+) -> Float32[np.ndarray, "rows width"]:
+    """These rows of `aligned_frame`, from what the film has as frame `index`."""
+    first, end = max(0, rows.start - HALF_WIDTH), min(len(frame), rows.stop + HALF_WIDTH)
+    values = motion.corrected(frame[first:end].astype(np.float32), index, slice(first, end))
+    return read_shifted(values, *split_drift(motion.drift[index])[1])[rows.start - first : rows.stop - first]
 
 
 def temporal_background(
@@ -86,19 +96,26 @@ def temporal_background(
     median = np.empty((canvas_h, canvas_w), np.float32)
     spread = np.empty((canvas_h, canvas_w), np.float32)
     done = 0
+
+    def put(stack: np.ndarray, start: int, sample: tuple[int, np.ndarray]) -> None:
+        """What a sample shows of the canvas from row `start` on, into its image of the stack."""
+        image, i = stack[sample[0]], int(chosen[sample[0]])
+        top, left = -places[i][1] - origin[1], -places[i][0] - origin[0]
+        a, b = max(start, top), min(start + len(image), top + h)
+        if a < b:
+            part = aligned(sample[1], motion, i, range(a - top, b - top)) - low
+            if packed:
+                part = np.clip(part, 0, HIGHEST - LOWEST) * scale + 0.5
+            image[a - start : b - start, left : left + w] = part
+
     for start in starts:
         height = min(rows, canvas_h - start)
         stack = np.full((len(chosen), height, canvas_w), _missing(dtype), dtype)
-        for k, i in enumerate(chosen):
-            top, left = -places[i][1] - origin[1], -places[i][0] - origin[0]
-            a, b = max(start, top), min(start + height, top + h)
-            if a < b:
-                part = aligned_frame(film, motion, int(i))[a - top : b - top] - low
-                if packed:
-                    part = np.clip(part, 0, HIGHEST - LOWEST) * scale + 0.5
-                stack[k, a - start : b - start, left : left + w] = part
-            done += 1
-            report(done, len(chosen) * len(starts))
+        samples = ((k, film.frame(int(i))) for k, i in enumerate(chosen))
+        with ahead(partial(put, stack, start), samples, threads) as images:
+            for _ in images:
+                done += 1
+                report(done, len(chosen) * len(starts))
         middle, width = _order_statistics(stack, threads)
         median[start : start + height] = middle / scale + low
         spread[start : start + height] = width / scale

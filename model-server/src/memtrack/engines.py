@@ -54,6 +54,8 @@ class _OpenVinoNet:
                 net = self._core.read_model(self._path)
                 net.reshape([self._batch, *shape])
                 hints = {"INFERENCE_NUM_THREADS": self._threads, "NUM_STREAMS": self._threads}
+                # Features are made beside it: a thread bound to one processor would wait for these, the other one idle.
+                hints["ENABLE_CPU_PINNING"] = False
                 self._compiled, self._shape = self._core.compile_model(net, "CPU", hints), shape
             compiled = self._compiled
         if getattr(self._local, "compiled", None) is not compiled:

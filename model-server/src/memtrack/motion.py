@@ -122,17 +122,9 @@ class FilmFeatures:
             return np.full((self.film.height, self.film.width), NEUTRAL, np.uint8)
         total = self._sum
         total[...] = 0
-        unmoved = 0
         for other in others:
-            shift = np.subtract(self.scene.place(other), self.scene.place(index))
-            target, source = overlap(total.shape, shift)
-            cv2.accumulate(self._grey_and_deviation(other)[1][source], total[target])
-            if shift.any():  # what this frame does not show counts as neutral
-                total[target] -= NEUTRAL
-            else:
-                unmoved += 1
-        gain = MEAN_GAIN / len(others)
-        mean = cv2.addWeighted(total, gain, total, 0, NEUTRAL - gain * unmoved * NEUTRAL, dtype=cv2.CV_8U)
+            cv2.accumulate(self._neighbour(index, other - index), total)
+        mean = cv2.addWeighted(total, MEAN_GAIN / len(others), total, 0, NEUTRAL * (1 - MEAN_GAIN), dtype=cv2.CV_8U)
         return np.asarray(mean, np.uint8)
 
     def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:

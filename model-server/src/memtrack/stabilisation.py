@@ -56,13 +56,13 @@ class FilmMotion:
     pattern: Image | None = None
     unlit: frozenset[int] = frozenset()
 
-    def corrected(self, values: Image, index: int) -> Image:
-        """Frame `index` as an even lamp and a clean camera would have taken it; works in place."""
+    def corrected(self, values: Image, index: int, rows: slice = slice(None)) -> Image:
+        """Frame `index`, or some rows of it, as an even lamp and a clean camera would have it taken; works in place."""
         if self.gain[index] != 1:
             values *= np.float32(self.gain[index])
             np.minimum(values, np.float32(self.ceiling), out=values)
         if self.pattern is not None:
-            values -= self.pattern
+            values -= self.pattern[rows]
         return values
 
 
