@@ -82,7 +82,7 @@ class Refinement:
 
     iterations: int = 4000
     batch: int = 128
-    widths: tuple[int, int, int] = (32, 48, 64)
+    widths: tuple[int, int, int] = (24, 32, 48)
     learning_rate: float = 1e-3
     weight_decay: float = 1e-3
     warm_up: int = 100
