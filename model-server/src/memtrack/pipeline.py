@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -13,11 +12,11 @@ from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
 from memtrack.blanks import FilledFilm, without_blanks
-from memtrack.channels import NEUTRAL, Channel
+from memtrack.channels import Channel
 from memtrack.contrast import with_contrasts
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
-from memtrack.detector import Engine, detect, padded
+from memtrack.detector import Engine, detect
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.lookahead import ahead
@@ -25,7 +24,7 @@ from memtrack.models import CRITERIA, ENGINES, Model, ModelCard
 from memtrack.motion import FilmFeatures
 from memtrack.progress import Report, Stage
 from memtrack.pruning import PrunerSettings, faint, prune
-from memtrack.refinement import EDGE_PX, Refiner, crops_around, refined
+from memtrack.refinement import Refiner, refined
 from memtrack.resampling import ScaledFilm, factors_of
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
@@ -118,9 +117,7 @@ def detect_film(
     refiner = model.refiner(settings.engine, threads=threads)
 
     stabilising = _at(report, Stage.STABILISING)
-    with ThreadPoolExecutor(1, "warming up") as aside:
-        aside.submit(_warm_up, engine, refiner, model.card, scaled.height, scaled.width)
-        motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
+    motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
     if isinstance(film, FilledFilm):
         margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
         region = _lit(film, region, margin / scale)
@@ -148,14 +145,6 @@ def detect_film(
             drift_x, drift_y = motion.drift[i] / factors
             weak = faint(candidates, kept, pruner, region)
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
-
-
-def _warm_up(engine: Engine, refiner: Refiner | None, card: ModelCard, height: int, width: int) -> None:
-    """Runs the nets on nothing: before the first of these frames they are compiled, for as long as ten frames take."""
-    blank = [np.full((height, width), NEUTRAL, np.uint8)] * len(card.features.channels)
-    engine.run(padded(blank))
-    if refiner is not None:
-        refiner.estimates(crops_around(blank, np.zeros((1, 2)), EDGE_PX))
 
 
 def _candidates(engine: Engine, refiner: Refiner | None, card: ModelCard, channels: list[Channel]) -> Detections:

@@ -13,8 +13,9 @@ import org.memtrack.detection.StageDrift;
 
 /**
  * Joins the detections of a film into tracks: SORT, interpolation and the track length filter (paper sections
- * "Interpolated Tracker" and "Track Length Filter"). Where the frames hold faint boxes, a second look finds the cells that
- * are among them; the paper has none, nor does {@link Interpolation#AUTHORS}.
+ * "Interpolated Tracker" and "Track Length Filter"). Two things the paper does not have, nor does {@link
+ * Interpolation#AUTHORS}: tracks that share a swimmer become one, and where the frames hold faint boxes, a second look finds
+ * the cells that are among them.
  */
 public final class SortTracker {
     private final SortSettings settings;
@@ -56,7 +57,7 @@ public final class SortTracker {
         boolean again = settings.interpolation() == Interpolation.FILL_GAPS
                 && frames.stream().anyMatch(frame -> !frame.faint().isEmpty());
         double share = again ? 0.5 : 1;
-        List<List<TrackPoint>> kept = new ArrayList<>();
+        List<List<TrackPoint>> cells = new ArrayList<>();
         int dropped = 0;
         for (List<TrackPoint> found : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
             List<TrackPoint> points = scene.inFilm(whole(found));
@@ -64,11 +65,15 @@ public final class SortTracker {
                 continue;
             }
             if (settings.filter().keeps(points, field)) {
-                kept.add(points);
+                cells.add(found);
             } else {
                 dropped++;
             }
         }
+        boolean shared =
+                settings.interpolation() == Interpolation.FILL_GAPS && settings.association() == Association.MOTION;
+        List<List<TrackPoint>> kept = new ArrayList<>();
+        (shared ? Twins.joined(cells) : cells).forEach(found -> kept.add(scene.inFilm(whole(found))));
         if (again) {
             List<FrameDetections> rest = SecondLook.unaccounted(frames, kept);
             for (List<TrackPoint> found :

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+package org.memtrack.tracking;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+import java.util.List;
+import java.util.function.IntPredicate;
+import java.util.stream.IntStream;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.Level;
+
+class TwinsTest {
+    private static final int FRAMES = 40;
+
+    /** What was found, in some frames, of a swimmer at this height. */
+    private static List<TrackPoint> found(double y, IntPredicate frames) {
+        return IntStream.range(0, FRAMES)
+                .filter(frames)
+                .mapToObj(frame -> new TrackPoint(
+                        frame,
+                        Box.around(100 + 2 * frame, y, 30, 30),
+                        new Detection(Box.around(100 + 2 * frame, y, 30, 30), 0.9, Level.HIGH)))
+                .toList();
+    }
+
+    @Test
+    void tracksThatAreFoundInTurnsOnOneSwimmerAreOneWithAllOfItsBoxes() {
+        List<TrackPoint> one = found(200, frame -> frame % 3 != 1);
+        List<TrackPoint> other = found(206, frame -> frame % 3 == 1 || frame % 9 == 0);
+
+        List<List<TrackPoint>> joined = Twins.joined(List.of(other, one));
+
+        assertThat(joined).hasSize(1);
+        assertThat(joined.get(0)).hasSize(FRAMES).containsAll(one);
+        assertThat(joined.get(0)).isSortedAccordingTo((a, b) -> Integer.compare(a.frame(), b.frame()));
+    }
+
+    @Test
+    void threeOnOneSwimmerAreOne() {
+        List<List<TrackPoint>> joined = Twins.joined(List.of(
+                found(200, frame -> frame % 3 == 0),
+                found(204, frame -> frame % 3 == 1),
+                found(208, frame -> frame % 3 == 2)));
+
+        assertThat(joined).hasSize(1);
+        assertThat(joined.get(0)).hasSize(FRAMES);
+    }
+
+    @ParameterizedTest(name = "{3}")
+    @CsvSource({
+        "212, 1, 40, farther apart than one swimmer's boxes",
+        "206, 2, 40, both found in half of the frames",
+        "206, 1, 7, together for too short a time to tell",
+    })
+    void othersStayTwo(double y, int both, int until, String reason) {
+        List<TrackPoint> one = found(200, frame -> frame % 4 < 2 || frame >= until);
+        List<TrackPoint> other = found(y, frame -> (both == 1 ? frame % 4 >= 2 : frame % 4 < 3) && frame < until);
+
+        assertThat(Twins.joined(List.of(one, other))).as(reason).containsExactly(one, other);
+    }
+
+    @Test
+    void aSwimmerWhoseBoxesAreFoundAtBothEndsInTurnsMakesOneTrack() {
+        List<FrameDetections> film = IntStream.range(0, FRAMES)
+                .mapToObj(frame -> new FrameDetections(
+                        frame,
+                        IntStream.range(0, 2)
+                                .filter(end -> frame % 10 == 0 || (frame / 3 + end) % 2 == 0)
+                                .mapToObj(end -> new Detection(Box.around(100, 200 + 9 * end, 30, 30), 0.9, Level.HIGH))
+                                .toList()))
+                .toList();
+
+        List<Track> tracks = new SortTracker(SortSettings.WATER, new Field(660, 492)).track(film);
+
+        assertThat(tracks).hasSize(1);
+        assertThat(tracks.get(0).points()).hasSize(FRAMES).noneMatch(TrackPoint::interpolated);
+    }
+}
