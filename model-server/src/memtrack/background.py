@@ -99,11 +99,12 @@ def temporal_background(
 
     def put(stack: np.ndarray, start: int, sample: tuple[int, np.ndarray]) -> None:
         """What a sample shows of the canvas from row `start` on, into its image of the stack."""
-        image, i = stack[sample[0]], int(chosen[sample[0]])
+        k, frame = sample
+        image, i = stack[k], int(chosen[k])
         top, left = -places[i][1] - origin[1], -places[i][0] - origin[0]
         a, b = max(start, top), min(start + len(image), top + h)
         if a < b:
-            part = aligned(sample[1], motion, i, range(a - top, b - top)) - low
+            part = aligned(frame, motion, i, range(a - top, b - top)) - low
             if packed:
                 part = np.clip(part, 0, HIGHEST - LOWEST) * scale + 0.5
             image[a - start : b - start, left : left + w] = part

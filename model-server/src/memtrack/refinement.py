@@ -51,8 +51,9 @@ def refined(found: Detections, channels: Features, refiner: Refiner) -> Detectio
         refiner: of the model that found them.
     """
     centres, owner = np.unique((found.boxes[:, :2] + found.boxes[:, 2:]) / 2, axis=0, return_inverse=True)
+    owner = owner.ravel()
     best = np.zeros(len(centres), np.float32)
-    np.maximum.at(best, owner := owner.ravel(), found.scores)
+    np.maximum.at(best, owner, found.scores)
     moving = best >= LEAST_SCORE
     if not moving.any():
         return found

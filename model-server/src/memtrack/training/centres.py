@@ -21,7 +21,7 @@ from memtrack.motion import FeatureSpec
 from memtrack.refinement import EDGE_PX, LEAST_SCORE, crops_around
 from memtrack.training.batches import inverted, signed_channels
 from memtrack.training.config import Refinement
-from memtrack.training.optimise import Report, computes_bfloat16, schedule
+from memtrack.training.optimise import Report, computes_bfloat16, learn, schedule
 from memtrack.training.samples import IGNORED, FilmSamples
 from memtrack.training.thresholds import MATCH_PX
 
@@ -104,12 +104,7 @@ def optimise_centres(
         with torch.autocast(kind, dtype=torch.bfloat16, enabled=short):
             out = net(inputs)
         loss = _loss(out.float(), torch.from_numpy(offsets).to(device))
-        optimiser.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
-        nn.utils.clip_grad_norm_(net.parameters(), settings.clip)
-        optimiser.step()
-        average.update_parameters(net)
-        losses.append(float(loss.detach()))
+        losses.append(learn(loss, net, average, optimiser, settings.clip))
         if (done := iteration + 1) % 100 == 0 or done == settings.iterations:
             left = (time.monotonic() - started) / done * (settings.iterations - done)
             report(f"centres {done} of {settings.iterations}, loss {np.mean(losses):.4f}, {left / 60:.1f} min left")

@@ -128,12 +128,7 @@ def optimise(
             maps = net(inputs)
         loss, shares = detection_loss(maps.float(), torch.from_numpy(wanted).to(device), config.loss)
         batches.learned(chosen, shares.cpu().numpy())
-        optimiser.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
-        nn.utils.clip_grad_norm_(net.parameters(), settings.clip)
-        optimiser.step()
-        average.update_parameters(net)
-        losses.append(float(loss.detach()))
+        losses.append(learn(loss, net, average, optimiser, settings.clip))
         done = iteration + 1
         if done % 100 == 0 or done == settings.iterations:
             left = (time.monotonic() - started) / (done - first) * (settings.iterations - done)
@@ -144,6 +139,22 @@ def optimise(
             _save(workspace, config, done, net, average, optimiser, batches)
     trained: nn.Module = average.module
     return trained
+
+
+def learn(
+    loss: torch.Tensor,
+    net: nn.Module,
+    average: torch.optim.swa_utils.AveragedModel,
+    optimiser: torch.optim.Optimizer,
+    clip: float,
+) -> float:
+    """One step of `net` and its running mean down the slope of `loss`, whose value it returns."""
+    optimiser.zero_grad()
+    loss.backward()  # type: ignore[no-untyped-call]
+    nn.utils.clip_grad_norm_(net.parameters(), clip)
+    optimiser.step()
+    average.update_parameters(net)
+    return float(loss.detach())
 
 
 def computes_bfloat16(kind: str) -> bool:

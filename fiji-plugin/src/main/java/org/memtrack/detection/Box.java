@@ -42,6 +42,11 @@ public record Box(double xMin, double yMin, double xMax, double yMax) {
         return width() * height();
     }
 
+    /** Distance of its centre from another box's, pixels. */
+    public double distance(Box other) {
+        return Math.hypot(other.centreX() - centreX(), other.centreY() - centreY());
+    }
+
     /** Intersection over union with another box, in [0, 1]; 0 when both are empty. */
     public double iou(Box other) {
         double width = Math.min(xMax, other.xMax) - Math.max(xMin, other.xMin);

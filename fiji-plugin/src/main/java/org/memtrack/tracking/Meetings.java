@@ -141,7 +141,7 @@ final class Meetings {
         ofOther.forEach(point -> others.put(point.frame(), point.box()));
         List<TrackPoint> apart = points.stream()
                 .filter(point -> !others.containsKey(point.frame())
-                        || distance(point.box(), others.get(point.frame())) >= ContrastModel.APART * swimmers.edge())
+                        || point.box().distance(others.get(point.frame())) >= ContrastModel.APART * swimmers.edge())
                 .toList();
         List<TrackPoint> seen = apart.size() < LEAST_POINTS ? points : apart;
         double contrast = seen.stream()
@@ -149,10 +149,6 @@ final class Meetings {
                 .average()
                 .orElseThrow();
         return new Side(state, points.get(points.size() - 1).frame(), contrast, seen.size());
-    }
-
-    private static double distance(Box one, Box other) {
-        return Math.hypot(other.centreX() - one.centreX(), other.centreY() - one.centreY());
     }
 
     private BoxState predicted(BoxState state, int frames) {
@@ -235,7 +231,7 @@ final class Meetings {
                 Place one = places.get(i);
                 for (int j = i + 1; j < places.size() && places.get(j).box.centreX() - one.box.centreX() < reach; j++) {
                     Place other = places.get(j);
-                    double distance = distance(one.box, other.box);
+                    double distance = one.box.distance(other.box);
                     if (distance < reach) {
                         int first = Math.min(one.track, other.track);
                         int second = Math.max(one.track, other.track);

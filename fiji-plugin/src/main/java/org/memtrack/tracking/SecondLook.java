@@ -66,9 +66,7 @@ final class SecondLook {
     private static boolean isFree(Detection detection, List<Box> taken) {
         Box box = detection.box();
         double reach = ACCOUNTED * edge(box);
-        return taken.stream()
-                .noneMatch(
-                        other -> Math.hypot(other.centreX() - box.centreX(), other.centreY() - box.centreY()) < reach);
+        return taken.stream().noneMatch(other -> other.distance(box) < reach);
     }
 
     private static double travel(List<TrackPoint> points) {

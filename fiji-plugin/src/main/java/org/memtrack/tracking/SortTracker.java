@@ -54,26 +54,27 @@ public final class SortTracker {
     public FilteredTracks trackAndFilter(
             List<FrameDetections> frames, DoubleConsumer progress, BooleanSupplier cancelled) {
         SceneView scene = new SceneView(new StageDrift(frames));
-        boolean again = settings.interpolation() == Interpolation.FILL_GAPS
-                && frames.stream().anyMatch(frame -> !frame.faint().isEmpty());
+        boolean ours = settings.interpolation() == Interpolation.FILL_GAPS;
+        boolean again = ours && frames.stream().anyMatch(frame -> !frame.faint().isEmpty());
         double share = again ? 0.5 : 1;
         List<List<TrackPoint>> cells = new ArrayList<>();
         int dropped = 0;
         for (List<TrackPoint> found : joined(frames, scene, done -> progress.accept(share * done), cancelled)) {
-            List<TrackPoint> points = scene.inFilm(whole(found));
+            List<TrackPoint> points = whole(found);
             if (points.isEmpty()) {
                 continue;
             }
-            if (settings.filter().keeps(points, field)) {
-                cells.add(found);
+            if (settings.filter().keeps(scene.inFilm(points), field)) {
+                cells.add(points);
             } else {
                 dropped++;
             }
         }
-        boolean shared =
-                settings.interpolation() == Interpolation.FILL_GAPS && settings.association() == Association.MOTION;
-        List<List<TrackPoint>> kept = new ArrayList<>();
-        (shared ? Twins.joined(cells) : cells).forEach(found -> kept.add(scene.inFilm(whole(found))));
+        if (ours && settings.association() == Association.MOTION) {
+            cells = Twins.joined(cells);
+        }
+        List<List<TrackPoint>> kept =
+                new ArrayList<>(cells.stream().map(scene::inFilm).toList());
         if (again) {
             List<FrameDetections> rest = SecondLook.unaccounted(frames, kept);
             for (List<TrackPoint> found :

@@ -3,7 +3,8 @@ package org.memtrack.tracking;
 
 import java.util.ArrayList;
 import java.util.List;
-import org.memtrack.detection.Box;
+import java.util.NavigableMap;
+import java.util.TreeMap;
 
 /**
  * Tracks that share one swimmer, made one. Where a long one makes two boxes now and then, a second track may begin on it;
@@ -25,26 +26,22 @@ final class Twins {
      * The tracks, those that share a swimmer joined. In a frame in which both were found the box of the one that was found
      * more often counts.
      *
-     * @param tracks what was found of each, in the scene, in order of frame, at least one point
+     * @param tracks in the scene, each frame of them filled, at least one point
      */
     static List<List<TrackPoint>> joined(List<List<TrackPoint>> tracks) {
-        List<List<TrackPoint>> found = new ArrayList<>(tracks);
-        List<List<TrackPoint>> whole =
-                new ArrayList<>(found.stream().map(GapFilling::fill).toList());
-        for (int i = 0; i < found.size(); i++) {
+        List<List<TrackPoint>> joined = new ArrayList<>(tracks);
+        for (int i = 0; i < joined.size(); i++) {
             int j = i + 1;
-            while (j < found.size()) {
-                if (areOne(whole.get(i), whole.get(j))) {
-                    found.set(i, union(found.get(i), found.remove(j)));
-                    whole.set(i, GapFilling.fill(found.get(i)));
-                    whole.remove(j);
+            while (j < joined.size()) {
+                if (areOne(joined.get(i), joined.get(j))) {
+                    joined.set(i, union(joined.get(i), joined.remove(j)));
                     j = i + 1;
                 } else {
                     j++;
                 }
             }
         }
-        return found;
+        return joined;
     }
 
     private static boolean areOne(List<TrackPoint> one, List<TrackPoint> other) {
@@ -58,30 +55,23 @@ final class Twins {
         for (int frame = first; frame < first + frames && distances <= most; frame++) {
             TrackPoint here = one.get(frame - oneBegins);
             TrackPoint there = other.get(frame - otherBegins);
-            distances += distance(here.box(), there.box());
+            distances += here.box().distance(there.box());
             both += here.interpolated() || there.interpolated() ? 0 : 1;
         }
         return frames >= LEAST_FRAMES && distances <= most && both <= BOTH * frames;
     }
 
-    private static double distance(Box one, Box other) {
-        return Math.hypot(one.centreX() - other.centreX(), one.centreY() - other.centreY());
+    private static List<TrackPoint> union(List<TrackPoint> one, List<TrackPoint> other) {
+        List<TrackPoint> oneFound = found(one);
+        List<TrackPoint> otherFound = found(other);
+        boolean oneIsMore = oneFound.size() >= otherFound.size();
+        NavigableMap<Integer, TrackPoint> all = new TreeMap<>();
+        (oneIsMore ? otherFound : oneFound).forEach(point -> all.put(point.frame(), point));
+        (oneIsMore ? oneFound : otherFound).forEach(point -> all.put(point.frame(), point));
+        return GapFilling.fill(List.copyOf(all.values()));
     }
 
-    private static List<TrackPoint> union(List<TrackPoint> one, List<TrackPoint> other) {
-        List<TrackPoint> more = one.size() >= other.size() ? one : other;
-        List<TrackPoint> less = more == one ? other : one;
-        List<TrackPoint> all = new ArrayList<>();
-        int next = 0;
-        for (TrackPoint point : more) {
-            for (; next < less.size() && less.get(next).frame() <= point.frame(); next++) {
-                if (less.get(next).frame() < point.frame()) {
-                    all.add(less.get(next));
-                }
-            }
-            all.add(point);
-        }
-        all.addAll(less.subList(next, less.size()));
-        return all;
+    private static List<TrackPoint> found(List<TrackPoint> points) {
+        return points.stream().filter(point -> !point.interpolated()).toList();
     }
 }

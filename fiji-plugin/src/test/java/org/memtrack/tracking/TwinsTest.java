@@ -17,38 +17,40 @@ import org.memtrack.detection.Level;
 class TwinsTest {
     private static final int FRAMES = 40;
 
-    /** What was found, in some frames, of a swimmer at this height. */
-    private static List<TrackPoint> found(double y, IntPredicate frames) {
-        return IntStream.range(0, FRAMES)
+    /** The track of a swimmer at this height that was found in some frames. */
+    private static List<TrackPoint> track(double y, IntPredicate frames) {
+        return GapFilling.fill(IntStream.range(0, FRAMES)
                 .filter(frames)
                 .mapToObj(frame -> new TrackPoint(
                         frame,
                         Box.around(100 + 2 * frame, y, 30, 30),
                         new Detection(Box.around(100 + 2 * frame, y, 30, 30), 0.9, Level.HIGH)))
-                .toList();
+                .toList());
     }
 
     @Test
     void tracksThatAreFoundInTurnsOnOneSwimmerAreOneWithAllOfItsBoxes() {
-        List<TrackPoint> one = found(200, frame -> frame % 3 != 1);
-        List<TrackPoint> other = found(206, frame -> frame % 3 == 1 || frame % 9 == 0);
+        List<TrackPoint> one = track(200, frame -> frame % 3 != 1);
+        List<TrackPoint> other = track(206, frame -> frame % 3 == 1 || frame % 9 == 0);
 
         List<List<TrackPoint>> joined = Twins.joined(List.of(other, one));
 
         assertThat(joined).hasSize(1);
-        assertThat(joined.get(0)).hasSize(FRAMES).containsAll(one);
+        assertThat(joined.get(0)).hasSize(FRAMES).noneMatch(TrackPoint::interpolated);
+        assertThat(joined.get(0))
+                .containsAll(one.stream().filter(point -> !point.interpolated()).toList());
         assertThat(joined.get(0)).isSortedAccordingTo((a, b) -> Integer.compare(a.frame(), b.frame()));
     }
 
     @Test
     void threeOnOneSwimmerAreOne() {
         List<List<TrackPoint>> joined = Twins.joined(List.of(
-                found(200, frame -> frame % 3 == 0),
-                found(204, frame -> frame % 3 == 1),
-                found(208, frame -> frame % 3 == 2)));
+                track(200, frame -> frame % 3 == 0),
+                track(204, frame -> frame % 3 == 1),
+                track(208, frame -> frame % 3 == 2)));
 
         assertThat(joined).hasSize(1);
-        assertThat(joined.get(0)).hasSize(FRAMES);
+        assertThat(joined.get(0)).hasSize(FRAMES).noneMatch(TrackPoint::interpolated);
     }
 
     @ParameterizedTest(name = "{3}")
@@ -58,8 +60,8 @@ class TwinsTest {
         "206, 1, 7, together for too short a time to tell",
     })
     void othersStayTwo(double y, int both, int until, String reason) {
-        List<TrackPoint> one = found(200, frame -> frame % 4 < 2 || frame >= until);
-        List<TrackPoint> other = found(y, frame -> (both == 1 ? frame % 4 >= 2 : frame % 4 < 3) && frame < until);
+        List<TrackPoint> one = track(200, frame -> frame % 4 < 2 || frame >= until);
+        List<TrackPoint> other = track(y, frame -> (both == 1 ? frame % 4 >= 2 : frame % 4 < 3) && frame < until);
 
         assertThat(Twins.joined(List.of(one, other))).as(reason).containsExactly(one, other);
     }
