@@ -135,4 +135,4 @@ def list_models_of(root: Path) -> list[Path]:
 def test_the_shipped_default_is_whole_and_small() -> None:
     model = load_model("default")
     assert model.card.training["config"]["model"]["name"] == "default"
-    assert sum(p.stat().st_size for p in (Path(__file__).parents[1] / "src/memtrack/models").rglob("*")) < 6_000_000
+    assert sum(p.stat().st_size for p in (Path(__file__).parents[1] / "src/memtrack/models").rglob("*")) < 6_500_000

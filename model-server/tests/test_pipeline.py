@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The whole method on simulated films whose truth is known."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -74,6 +75,19 @@ def test_bacteria_in_a_gel_are_found_exactly(gel: SimulatedFilm, model: Model) -
     assert precision > 0.9
     assert recall > 0.85
     assert error < 1.2
+
+
+def test_a_crowd_is_told_of_and_the_model_for_crowds_finds_more_of_it(model: Model, gel: SimulatedFilm) -> None:
+    looks = tuple(replace(BRIGHT, contrast=c) for c in (60.0, 45.0, 70.0, 52.0, 58.0) * 26)
+    made = simulate(replace(GEL, texture=4, gaits=(Gait.SWIMMING,) * 130, looks=looks), 3)
+    said = list[str]()
+    for film, of in ((made.film, model), (made.film, load_model("crowded")), (gel.film, model)):
+        list(detect_film(film, of, DetectionSettings(), lambda stage, done, total: None, said.append))
+    assert len(said) == 1
+    assert re.match(r"In a frame \d\d bacteria .* one for every \d+ square pixels; .* 'crowded' may find more", said[0])
+    usual, crowded = (judge(made, run(made.film, of)) for of in (model, load_model("crowded")))
+    assert crowded[1] > usual[1] + 0.1
+    assert crowded[0] > 0.95
 
 
 def test_drift_and_flicker_cost_little_and_boxes_stay_in_the_film_the_user_sees(model: Model) -> None:

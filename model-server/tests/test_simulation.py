@@ -233,6 +233,9 @@ def test_families_that_are_hard_in_one_respect_are_so() -> None:
     for recipe in drawn("specks"):
         assert len(recipe.gaits) <= 6
         assert not recipe.decoy_looks or (len(recipe.decoy_looks) >= 5 and recipe.wobble >= 0.1)
+    rooms = [248 * 208 / len(recipe.gaits) for recipe in drawn("crowded") if recipe.gaits]
+    assert min(rooms) > 490
+    assert np.quantile(rooms, [0.2, 0.8]) == pytest.approx([760, 2640], rel=0.3)
     assert all(6 <= recipe.frames <= 30 for recipe in drawn("brief"))
     asked = [draw_recipe(family, np.random.default_rng(1), width=200, height=160, frames=77) for family in FAMILIES]
     assert {recipe.frames for recipe in asked} == {77}

@@ -36,6 +36,9 @@ CELL_LENGTH_UM = 2.0
 BLANK_MARGIN_PX = 6.0
 """Where the scene drifts, the edge of a blank part seems to move, and passes for cells so near to it at most, at the
 model's scale."""
+CROWD, CROWDED_ROOM_PX2 = 20, 3000.0
+"""From so many bacteria a frame on, with so little of it for each (square pixels, at the model's scale), the model
+`crowded` may find more of them."""
 SCALES = (0.05, 8.0)
 """Least and greatest factor frames are scaled by: what is more is a mistake, and would not fit into memory."""
 
@@ -136,6 +139,7 @@ def detect_film(
     )
     features = FilmFeatures(scene, model.card.features)
     frames = (features.channels(i) for i in range(count))
+    bacteria = 0
     with ahead(partial(_candidates, engine, refiner, model.card), frames, threads) as found:
         for i, on_grid in enumerate(found):
             done = i + 1
@@ -144,7 +148,14 @@ def detect_film(
             kept, counts = prune(candidates, pruner, region)
             drift_x, drift_y = motion.drift[i] / factors
             weak = faint(candidates, kept, pruner, region)
+            bacteria += len(kept)
             yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
+    room = (film.height * film.width if region is None else int(region.sum())) * count / max(bacteria, 1)
+    if model.card.name == "default" and bacteria >= CROWD * count and room * scale**2 < CROWDED_ROOM_PX2:
+        warn(
+            f"In a frame {bacteria / count:.0f} bacteria were found, one for every {room:.0f} square pixels; of "
+            "such crowds the model 'crowded' may find more: choose it as Model (model=crowded in a macro)."
+        )
 
 
 def _candidates(engine: Engine, refiner: Refiner | None, card: ModelCard, channels: list[Channel]) -> Detections:

@@ -112,6 +112,7 @@ FAMILIES: dict[str, Callable[[Recipe, np.random.Generator], Recipe]] = {
     "faint": _varied(variations.faint, 0.3),
     "specks": _varied(variations.specks, 0.75),
     "brief": _varied(variations.brief, 0.4),
+    "crowded": _varied(variations.crowded, 0.7),
     "captioned": _varied(variations.captioned, 0.5),
     "passing": _varied(variations.passing, 0.5),
     "packed": _varied(variations.packed, 0.5),

@@ -65,6 +65,20 @@ def brief(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     return replace(recipe, frames=int(rng.integers(6, 31)))
 
 
+def crowded(recipe: Recipe, rng: np.random.Generator) -> Recipe:
+    """One bacterium for every 500 to 4000 square pixels, which are 80 to 650 in 660 x 492 pixels."""
+    if not recipe.looks:
+        return recipe
+    room = float(np.exp(rng.uniform(np.log(500), np.log(4000))))
+    count = round((recipe.width + 48) * (recipe.height + 48) / room)
+    chosen = rng.integers(len(recipe.looks), size=count)
+    return replace(
+        recipe,
+        gaits=tuple(recipe.gaits[k] for k in chosen),
+        looks=tuple(_like(recipe.looks[k], rng) for k in chosen),
+    )
+
+
 def captioned(recipe: Recipe, rng: np.random.Generator) -> Recipe:
     """A clock that runs and a scale bar are burnt into the frames."""
     return replace(recipe, caption=True)
