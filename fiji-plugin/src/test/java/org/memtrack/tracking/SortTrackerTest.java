@@ -241,13 +241,8 @@ class SortTrackerTest {
                 for (Detection left : frame.detections()) {
                     if (!seen.contains(left)) {
                         assertThat(frame.detections())
-                                .anyMatch(other -> seen.contains(other)
-                                        && Math.abs(other.box().centreX()
-                                                        - left.box().centreX())
-                                                < 10
-                                        && Math.abs(other.box().centreY()
-                                                        - left.box().centreY())
-                                                < 10);
+                                .anyMatch(other ->
+                                        seen.contains(other) && other.box().distance(left.box()) < 10);
                         shared++;
                     }
                 }
