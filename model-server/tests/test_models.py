@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -120,6 +121,18 @@ def test_a_link_out_of_the_registry_is_no_model(registry: Path, tmp_path: Path) 
         pytest.skip("this system makes no symbolic links without further rights")
     with pytest.raises(ModelNotFoundError):
         load_model("mine")
+
+
+def test_the_model_for_crowds_comes_with_the_one_that_names_it(registry: Path, tmp_path: Path) -> None:
+    first = registered(tmp_path, "many")
+    registered(tmp_path, "many")
+    weights = {"weights.safetensors": first.weights}
+    register(replace(card(), crowds="many 1"), weights)
+    assert load_model("mine").crowds == first
+    register(replace(card(), crowds="many 3"), weights)
+    with pytest.raises(ModelNotFoundError, match="there is no model many 3"):
+        load_model("mine")
+    assert load_model("mine", "1").crowds == first
 
 
 def test_a_failed_registration_leaves_nothing(registry: Path, tmp_path: Path) -> None:

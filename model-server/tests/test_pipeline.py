@@ -77,22 +77,25 @@ def test_bacteria_in_a_gel_are_found_exactly(gel: SimulatedFilm, model: Model) -
     assert error < 1.2
 
 
-def test_a_crowd_is_told_of_and_the_model_for_crowds_finds_more_of_it(model: Model, gel: SimulatedFilm) -> None:
+def test_the_model_for_crowds_takes_over_in_a_crowd_and_finds_more_of_it(model: Model, gel: SimulatedFilm) -> None:
     looks = tuple(replace(BRIGHT, contrast=c) for c in (60.0, 45.0, 70.0, 52.0, 58.0) * 26)
     made = simulate(replace(GEL, texture=4, gaits=(Gait.SWIMMING,) * 130, looks=looks), 3)
-    said = list[str]()
+    said, taken = list[str](), list[Model]()
 
     def found(film: ArrayFilm, of: Model) -> list[FrameDetections]:
-        return list(detect_film(film, of, DetectionSettings(), lambda stage, done, total: None, said.append))
+        return list(detect_film(film, of, DetectionSettings(), lambda *_: None, said.append, taken.append))
 
-    usual = judge(made, found(made.film, model))
-    assert len(said) == 1
-    assert re.match(r"In a frame \d\d bacteria .* one for every \d+ square pixels; .* 'crowded' may find more", said[0])
-    crowded = judge(made, found(made.film, load_model("crowded")))
+    usual = judge(made, found(made.film, replace(model, crowds=None)))
     found(gel.film, model)
+    assert not said + taken
+    crowded = judge(made, found(made.film, model))
+    assert taken == [model.crowds]
     assert len(said) == 1
+    assert re.match(r"In each of the first frames \d+ boxes were .* \d+ square pixels: model crowded 1, ", said[0])
     assert crowded[1] > usual[1] + 0.1
     assert crowded[0] > 0.95
+    for of_model, by_it in zip(found(made.film, model), found(made.film, load_model("crowded", "1")), strict=True):
+        np.testing.assert_array_equal(of_model.detections.boxes, by_it.detections.boxes)
 
 
 def test_drift_and_flicker_cost_little_and_boxes_stay_in_the_film_the_user_sees(model: Model) -> None:

@@ -23,7 +23,7 @@ from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks_io import write_tracks
 from memtrack.training.config import read_config
-from memtrack.training.optimise import new_net
+from memtrack.training.optimise import crowds_model, new_net
 
 
 def arguments(module: object, *words: str) -> argparse.Namespace:
@@ -107,6 +107,11 @@ widths = [4, 4, 6]
     torch.testing.assert_close(weights, trained.net.state_dict()["predict.weight"])
     with pytest.raises(ModelNotFoundError, match="has other features or another net"):
         new_net(replace(tuned, widths=(8, 8, 8, 8)))
+    # And take over in crowds, if features and cells are the same.
+    assert crowds_model(tuned) == ""
+    assert crowds_model(replace(tuned, crowds="mine")) == "mine 1"
+    with pytest.raises(ModelNotFoundError, match="model mine 1 has other features or cells of another length"):
+        crowds_model(replace(tuned, crowds="mine 1", cell_length_px=(5.0, 9.0)))
     capsys.readouterr()
     assert models_command.run(arguments(models_command)) == 0
     assert "mine 1" in capsys.readouterr().out

@@ -43,7 +43,8 @@ class ModelCard:
 
     cell_length_px: smallest and largest length of a cell the model knows, in pixels. thresholds: for each criterion one
     score a level. files: SHA-256 of each file beside the card. refiner: `widths` of the net that refines centres, empty
-    for none.
+    for none. crowds: 'name version' of the model of the registry that takes over in a crowd, of the same features and
+    cell length; empty for none.
     """
 
     name: str
@@ -57,6 +58,7 @@ class ModelCard:
     cell_length_px: tuple[float, float]
     thresholds: dict[str, tuple[float, ...]]
     refiner: dict[str, Any] = field(default_factory=dict)
+    crowds: str = ""
     training: dict[str, Any] = field(default_factory=dict)
     results: dict[str, Any] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
@@ -94,10 +96,11 @@ class ModelCard:
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """A model of the registry whose files were found to match its card."""
+    """A model of the registry whose files were found to match its card, with the one that takes over in a crowd."""
 
     card: ModelCard
     folder: Path
+    crowds: Model | None = None
 
     @property
     def digest(self) -> str:
@@ -172,12 +175,20 @@ def list_models() -> list[ModelCard]:
 
 
 def load_model(name: str = "default", version: str | None = None) -> Model:
-    """The model of that name and version, the newest by default, with each file checked against its card.
+    """The model of that name and version, the newest by default, with each file checked against its card; with the
+    model for crowds that it names.
 
     Raises:
-        ModelNotFoundError: there is none.
+        ModelNotFoundError: there is none, or none for its crowds.
         ModelCorruptError: a file differs from what its card states.
     """
+    model = _load(name, version)
+    crowds = model.card.crowds
+    return dataclasses.replace(model, crowds=_load(*crowds.split(maxsplit=1))) if crowds else model
+
+
+def _load(name: str, version: str | None = None) -> Model:
+    """The model without that for its crowds."""
     check_name(name)
     if version is not None:
         check_name(version)

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import contextlib
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -36,9 +38,10 @@ CELL_LENGTH_UM = 2.0
 BLANK_MARGIN_PX = 6.0
 """Where the scene drifts, the edge of a blank part seems to move, and passes for cells so near to it at most, at the
 model's scale."""
-CROWD, CROWDED_ROOM_PX2 = 20, 3000.0
-"""From so many bacteria a frame on, with so little of it for each (square pixels, at the model's scale), the model
-`crowded` may find more of them."""
+CROWD_FRAMES, CROWD, CROWDED_ROOM_PX2 = 8, 20, 3000.0
+"""A film is a crowd, and the model's model for crowds takes over, if in each of the first so many frames so many boxes
+are found, with so little room for each (square pixels, at the model's scale); faint ones among them, since of the
+densest crowds few others are found."""
 SCALES = (0.05, 8.0)
 """Least and greatest factor frames are scaled by: what is more is a mistake, and would not fit into memory."""
 
@@ -96,13 +99,15 @@ def detect_film(
     settings: DetectionSettings,
     report: Report,
     warn: Callable[[str], None] = lambda sentence: None,
+    taken: Callable[[Model], None] = lambda model: None,
 ) -> Iterator[FrameDetections]:
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
-    Reads the film up to four times through `film.frame`, some of its frames three times more, and holds a few of them.
-    `report(stage, done, total)` is called at least once a frame in every stage and may raise `CancelledError`. The
-    backgrounds of a long film after the first are made while detecting, each when its frames come. `warn(sentence)` is
-    called with what the user should know about the film.
+    Reads the film up to four times through `film.frame`, some of its frames three times more, in a crowd the first
+    ones once more, and holds a few of them. `report(stage, done, total)` is called at least once a frame in every stage
+    and may raise `CancelledError`. The backgrounds of a long film after the first are made while detecting, each when
+    its frames come. `warn(sentence)` is called with what the user should know about the film, `taken(model)` with the
+    model for crowds where it takes over, before the first frame.
 
     Raises:
         FilmError: the film holds values that are not finite.
@@ -114,10 +119,12 @@ def detect_film(
     scale = model_scale(film, model, settings)
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
-    pruner, region = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale), settings.region
-    threads = settings.threads
-    engine = model.engine(settings.engine, threads=threads)
-    refiner = model.refiner(settings.engine, threads=threads)
+    region, threads = settings.region, settings.threads
+    nets = [
+        (by.card, by.engine(settings.engine, threads=threads), by.refiner(settings.engine, threads=threads))
+        for by in (model, model.crowds)
+        if by is not None
+    ]
 
     stabilising = _at(report, Stage.STABILISING)
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
@@ -138,24 +145,38 @@ def detect_film(
         threads=threads,
     )
     features = FilmFeatures(scene, model.card.features)
-    frames = (features.channels(i) for i in range(count))
-    bacteria = 0
-    with ahead(partial(_candidates, engine, refiner, model.card), frames, threads) as found:
-        for i, on_grid in enumerate(found):
-            done = i + 1
-            report(Stage.DETECTING, done, count)
-            candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
-            kept, counts = prune(candidates, pruner, region)
-            drift_x, drift_y = motion.drift[i] / factors
-            weak = faint(candidates, kept, pruner, region)
-            bacteria += len(kept)
-            yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
-    room = (film.height * film.width if region is None else int(region.sum())) * count / max(bacteria, 1)
-    if model.card.name == "default" and bacteria >= CROWD * count and room * scale**2 < CROWDED_ROOM_PX2:
-        warn(
-            f"In a frame {bacteria / count:.0f} bacteria were found, one for every {room:.0f} square pixels; of "
-            "such crowds the model 'crowded' may find more: choose it as Model (model=crowded in a macro)."
-        )
+
+    def search(card: ModelCard, engine: Engine, refiner: Refiner | None) -> Generator[FrameDetections]:
+        nonlocal done
+        pruner = replace(settings.pruner(card), max_size_px=settings.max_size_px / scale)
+        frames = (features.channels(i) for i in range(count))
+        with ahead(partial(_candidates, engine, refiner, card), frames, threads) as found:
+            for i, on_grid in enumerate(found):
+                done = i + 1
+                report(Stage.DETECTING, done, count)
+                candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
+                kept, counts = prune(candidates, pruner, region)
+                drift_x, drift_y = motion.drift[i] / factors
+                weak = faint(candidates, kept, pruner, region)
+                yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
+
+    searching, first = search(*nets[0]), list[FrameDetections]()
+    if model.crowds is not None:
+        first += islice(searching, CROWD_FRAMES)
+        area = (film.height * film.width if region is None else int(region.sum())) * scale**2
+        each = sum(len(found.detections) + len(found.faint) for found in first) / len(first)
+        if each >= CROWD and area < CROWDED_ROOM_PX2 * each:
+            searching.close()
+            warn(
+                f"In each of the first frames {each:.0f} boxes were found, faint ones among them, one for every "
+                f"{area / each:.0f} square pixels: model {model.card.crowds}, which is for crowds, takes over from "
+                f"{model.card.name} {model.card.version}."
+            )
+            taken(model.crowds)
+            searching, first = search(*nets[1]), []
+    with contextlib.closing(searching):
+        yield from first
+        yield from searching
 
 
 def _candidates(engine: Engine, refiner: Refiner | None, card: ModelCard, channels: list[Channel]) -> Detections:

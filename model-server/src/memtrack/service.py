@@ -19,7 +19,7 @@ from memtrack.config import Limits
 from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, ResourceLimitError, ShutdownError
 from memtrack.headers import check_scaled, read_header
-from memtrack.models import load_model
+from memtrack.models import Model, load_model
 from memtrack.pipeline import detect_film, model_scale
 from memtrack.progress import ProgressClock, Stage, StageCosts
 from memtrack.receiving import FrameReceiver
@@ -119,7 +119,13 @@ class DetectionService(detection_pb2_grpc.DetectionServiceServicer):
             film_sha256 = _receive(call, requests, film, progress)
             warnings: list[str] = []
             settings = dataclasses.replace(request.settings, threads=self._threads)
-            work = detect_film(film, model, settings, progress.report, warnings.append)
+
+            def taken(crowds: Model) -> None:
+                nonlocal model
+                model = crowds
+                call.send(messages.accepted(request, crowds, film))
+
+            work = detect_film(film, model, settings, progress.report, warnings.append, taken)
             frames = cast("Generator[FrameDetections]", work)
             # Closed before the spool is: the method's threads may be some frames ahead.
             with self._turns.turn(progress.wait), contextlib.closing(frames):

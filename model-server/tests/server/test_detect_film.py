@@ -20,6 +20,10 @@ from memtrack.detections import FilterCounts
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
 from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.simulation.film import simulate
+from memtrack.simulation.optics import Look
+from memtrack.simulation.recipe import Recipe
+from memtrack.simulation.swimming import Gait
 from memtrack.v1 import detection_pb2 as pb
 from server.running import Answer, RunningServer, answer, chunks, eventually, header, noise, requests
 
@@ -64,6 +68,22 @@ def test_a_film_gets_the_detections_of_the_method_itself(server: RunningServer, 
     assert (found.accepted[0].model_name, found.accepted[0].model_sha256) == ("default", model.digest)
     assert found.accepted[0].thresholds.low == 0.1
     assert found.accepted[0].engine.startswith("openvino 20")
+
+
+def test_where_the_model_for_crowds_takes_over_the_client_is_told_before_the_first_frame(server: RunningServer) -> None:
+    look = Look(length=8, width=4, contrast=60, halo=0.15, halo_radius=10, flip=0, relief=0, relief_angle=0)
+    crowd = Recipe(width=256, height=224, frames=20, texture=4, gaits=(Gait.SWIMMING,) * 110, looks=(look,) * 110)
+    film = simulate(crowd, 3).film
+    found = server.detect(np.stack([film.frame(i) for i in range(film.frame_count)]))
+
+    first, second = found.accepted
+    model = load_model("default").crowds
+    assert model is not None
+    assert (first.model_name, second.model_name) == ("default", "crowded")
+    assert (second.model_sha256, second.thresholds.low) == (model.digest, model.card.thresholds["max_f1"][0])
+    assert found.order.index("frame") > len(found.order) - 1 - found.order[::-1].index("accepted")
+    assert [f.frame for f in found.frame] == list(range(20))
+    assert any("model crowded 1, which is for crowds, takes over" in said for said in found.summary[0].warnings)
 
 
 def test_progress_rises_through_the_stages_to_one(server: RunningServer) -> None:

@@ -61,14 +61,15 @@ def run(options: argparse.Namespace) -> int:
         line = _ProgressLine(film.frame_count, quiet=options.quiet)
         film_sha256 = _sha256(film, line)
         learned: list[str] = []
-        frames = list(detect_film(film, model, settings, line.report, learned.append))
+        used = [model]
+        frames = list(detect_film(film, model, settings, line.report, learned.append, used.append))
         line.end()
         _say(learned)
         counts = sum((found.counts for found in frames), FilterCounts())
-        provenance = _provenance(options.film, film, [*notes, *learned], film_sha256, model, settings, counts)
+        provenance = _provenance(options.film, film, [*notes, *learned], film_sha256, used[-1], settings, counts)
     for file in write_detections(options.out, frames, provenance):
         print(file)
-    print(summary(counts, model, settings), file=sys.stderr)
+    print(summary(counts, used[-1], settings), file=sys.stderr)
     return 0
 
 

@@ -40,6 +40,8 @@ class ModelSettings:
     box_size_px: float = 30.0
     start_from: str = ""
     """'name' or 'name version' of a model of the registry whose weights are the start (fine-tuning)."""
+    crowds: str = ""
+    """'name' or 'name version' of a model of the registry that takes over where a film is crowded; empty for none."""
 
     def __post_init__(self) -> None:
         check_name(self.name)

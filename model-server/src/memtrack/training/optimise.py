@@ -76,13 +76,35 @@ def start_model(model: ModelSettings) -> Model:
     Raises:
         ModelNotFoundError: it is missing, or has other features or another net.
     """
-    name, _, version = model.start_from.partition(" ")
-    start = load_model(name, version or None)
+    start = _named(model.start_from)
     if start.card.features != SPECS[model.features] or start.card.architecture != architecture(model):
         raise ModelNotFoundError(
             f"model {model.start_from} has other features or another net than this training: start from one like it"
         )
     return start
+
+
+def crowds_model(model: ModelSettings) -> str:
+    """The `crowds` entry of the model's card, with the version that is the newest now where none is given.
+
+    Raises:
+        ModelNotFoundError: that model is missing, or has other features or cells.
+    """
+    if not model.crowds:
+        return ""
+    card = _named(model.crowds).card
+    if card.features != SPECS[model.features] or card.cell_length_px != model.cell_length_px:
+        raise ModelNotFoundError(
+            f"model {model.crowds} has other features or cells of another length than this training: name one like it "
+            "in crowds"
+        )
+    return f"{card.name} {card.version}"
+
+
+def _named(words: str) -> Model:
+    """The model of a recipe's 'name' or 'name version'."""
+    name, _, version = words.partition(" ")
+    return load_model(name, version or None)
 
 
 def optimise(

@@ -25,7 +25,16 @@ from memtrack.training.centres import centre_samples, optimise_centres
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
 from memtrack.training.films import annotated_samples, simulated_samples
-from memtrack.training.optimise import Report, Workspace, architecture, new_net, optimise, read_checkpoint, start_model
+from memtrack.training.optimise import (
+    Report,
+    Workspace,
+    architecture,
+    crowds_model,
+    new_net,
+    optimise,
+    read_checkpoint,
+    start_model,
+)
 from memtrack.training.samples import FilmSamples
 
 CALIBRATION_FRAMES = 64
@@ -48,13 +57,14 @@ def train(
 
     Raises:
         SettingsError: the workspace holds the checkpoint of a training by another recipe.
-        ModelNotFoundError: the model to start from is missing, or has another net.
+        ModelNotFoundError: the model to start from, or that for crowds, is missing or does not fit.
     """
     started = time.monotonic()
     workspace.folder.mkdir(parents=True, exist_ok=True)
     # What cannot be used is refused before the films are made.
     read_checkpoint(config, workspace)
     new_net(config.model)
+    crowds = crowds_model(config.model)
     spec = SPECS[config.model.features]
 
     def films(done: int, total: int) -> None:
@@ -89,6 +99,7 @@ def train(
             cell_length_px=config.model.cell_length_px,
             thresholds=detector.thresholds,
             refiner={"widths": list(config.refinement.widths)} if refiner else {},
+            crowds=crowds,
             training={"config": dataclasses.asdict(config), "minutes": round(minutes, 1)},
             results=results,
         )

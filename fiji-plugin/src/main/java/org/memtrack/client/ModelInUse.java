@@ -4,7 +4,8 @@ package org.memtrack.client;
 import java.util.List;
 
 /**
- * What the server does with a film, told before work begins.
+ * What the server does with a film, told before work begins and anew where the film is found to be a crowd, for which the
+ * model names another.
  *
  * @param name name of the model
  * @param version version of the model

@@ -38,7 +38,7 @@ public enum TrackOption {
             "Model",
             Kind.TEXT,
             "default",
-            "name of the model: default, crowded for more than about 200 cells in 660 x 492 pixels, or one of your own"),
+            "name of the model: default, or one of your own; where a film is crowded, crowded takes over from default by itself"),
     PIXEL_SIZE(
             "pixel_size",
             "Pixel size (um)",

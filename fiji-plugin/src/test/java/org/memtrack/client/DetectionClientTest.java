@@ -59,6 +59,26 @@ class DetectionClientTest {
     }
 
     @Test
+    void theModelThatTakesOverInACrowdIsTheOneInUse() throws Exception {
+        try (ScriptedServer server = new ScriptedServer(responses -> {
+            responses.onNext(accepted());
+            DetectFilmResponse.Builder crowd = accepted().toBuilder();
+            crowd.getAcceptedBuilder()
+                    .setModelName("crowded")
+                    .getThresholdsBuilder()
+                    .setLow(0.25);
+            responses.onNext(crowd.build());
+            answerFrames(responses, 4);
+        })) {
+            DetectionResult result = server.client().detect(FILM, DetectionSettings.DEFAULTS, Progress.NONE);
+
+            assertThat(result.accepted().name()).isEqualTo("crowded");
+            assertThat(result.accepted().thresholds().low()).isEqualTo(0.25);
+            assertThat(result.warnings()).containsExactly("A warning.", "2 of 3 frames are dark.");
+        }
+    }
+
+    @Test
     void theHeaderSaysAllThatWasSetAndLeavesOutWhatWasNot() throws Exception {
         BitSet inside = new BitSet();
         inside.set(0);
