@@ -27,12 +27,19 @@ def areas(boxes: Float[np.ndarray, "n 4"]) -> Float[np.ndarray, " n"]:
 def pairwise_iou(first: Float[np.ndarray, "n 4"], second: Float[np.ndarray, "m 4"]) -> Float[np.ndarray, "n m"]:
     """Intersection over union of every box of `first` with every box of `second`; 0 where both are empty."""
     a, b = first.astype(np.float64), second.astype(np.float64)
-    low = np.maximum(a[:, None, :2], b[None, :, :2])
-    high = np.minimum(a[:, None, 2:], b[None, :, 2:])
-    overlap = np.prod(np.maximum(high - low, 0), axis=2)
+    # One axis at a time: many times as fast as products over an axis of two.
+    overlap, high = (_shared(a[:, axis::2], b[:, axis::2]) for axis in (0, 1))
+    overlap *= high
     union = areas(a)[:, None] + areas(b)[None, :] - overlap
     shares: np.ndarray = np.divide(overlap, union, out=np.zeros_like(overlap), where=union > 0)
     return shares
+
+
+def _shared(first: Float[np.ndarray, "n 2"], second: Float[np.ndarray, "m 2"]) -> Float[np.ndarray, "n m"]:
+    """Length of what every interval of `first` has in common with every one of `second`, by their ends."""
+    length: np.ndarray = np.minimum(first[:, None, 1], second[None, :, 1])
+    length -= np.maximum(first[:, None, 0], second[None, :, 0])
+    return np.maximum(length, 0, out=length)
 
 
 def non_maximum_suppression(

@@ -83,9 +83,7 @@ class Decoder:
 
 def _consensus(centres: Float64[np.ndarray, "n 2"], scores: Float32[np.ndarray, " n"]) -> Float64[np.ndarray, "n 2"]:
     means = np.empty_like(centres)
-    # The rounding of a sum depends on what lies between its terms: ordinary frames are one block.
-    size = MIN_CANDIDATES if len(centres) <= MIN_CANDIDATES else BLOCK
-    for rows, near in blocks(centres[:, 1], AGREEING_PX, size):
+    for rows, near in blocks(centres[:, 1], AGREEING_PX, BLOCK):
         weights = scores[near] * (_squared_distances(centres[rows], centres[near]) <= AGREEING_PX**2)
         means[rows] = weights @ centres[near] / weights.sum(axis=1, keepdims=True)
     return means
@@ -108,7 +106,11 @@ def _led(
 def _squared_distances(
     first: Float64[np.ndarray, "n 2"], second: Float64[np.ndarray, "m 2"]
 ) -> Float64[np.ndarray, "n m"]:
-    squares: np.ndarray = np.square(second[None] - first[:, None]).sum(axis=2)
+    # One axis at a time: many times as fast as a sum over an axis of two.
+    squares, y = (second[None, :, axis] - first[:, None, axis] for axis in (0, 1))
+    squares *= squares
+    y *= y
+    squares += y
     return squares
 
 

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int
 Indices = Int[np.ndarray, " _"]
 Near = Callable[[Indices, Indices], Bool[np.ndarray, "rows columns"]]
 
-BLOCK = 256
+BLOCK = 64
 
 
 def blocks(places: Float[np.ndarray, " n"], reach: float, size: int) -> Iterator[tuple[Indices, Indices]]:

@@ -75,12 +75,12 @@ def _change(centres: Float[np.ndarray, "n 2"], channels: Features, refiner: Refi
 
 def crops_around(channels: Features, centres: Float[np.ndarray, "n 2"], edge: int) -> Crops:
     """Crops of `edge` x `edge` pixels around the pixels next to `centres` (x, y); neutral outside the frame."""
-    height, width = channels[0].shape
-    crops = np.full((len(centres), len(channels), edge, edge), NEUTRAL, np.uint8)
+    image = np.asarray(channels)  # in one piece: one copy for a crop, not one for each of its channels
+    height, width = image.shape[1:]
+    crops = np.full((len(centres), len(image), edge, edge), NEUTRAL, np.uint8)
     for crop, (x, y) in zip(crops, np.rint(centres).astype(int) - edge // 2, strict=True):
         rows, columns = slice(max(0, y), min(height, y + edge)), slice(max(0, x), min(width, x + edge))
-        for target, channel in zip(crop, channels, strict=True):
-            part = channel[rows, columns]
-            top, left = rows.start - y, columns.start - x
-            target[top : top + part.shape[0], left : left + part.shape[1]] = part
+        part = image[:, rows, columns]
+        top, left = rows.start - y, columns.start - x
+        crop[:, top : top + part.shape[1], left : left + part.shape[2]] = part
     return crops
