@@ -91,7 +91,7 @@ def test_the_model_for_crowds_takes_over_in_a_crowd_and_finds_more_of_it(model: 
     crowded = judge(made, found(made.film, model))
     assert taken == [model.crowds]
     assert len(said) == 1
-    assert re.match(r"In each of the first frames \d+ boxes were .* \d+ square pixels: model crowded 1, ", said[0])
+    assert re.match(r"In frame 21 there are \d+ bacteria, .* \d+ square pixels: model crowded 1, ", said[0])
     assert crowded[1] > usual[1] + 0.1
     assert crowded[0] > 0.95
     for of_model, by_it in zip(found(made.film, model), found(made.film, load_model("crowded", "1")), strict=True):

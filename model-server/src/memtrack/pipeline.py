@@ -3,11 +3,8 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
-from itertools import islice
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -38,10 +35,10 @@ CELL_LENGTH_UM = 2.0
 BLANK_MARGIN_PX = 6.0
 """Where the scene drifts, the edge of a blank part seems to move, and passes for cells so near to it at most, at the
 model's scale."""
-CROWD_FRAMES, CROWD, CROWDED_ROOM_PX2 = 8, 20, 3000.0
-"""A film is a crowd, and the model's model for crowds takes over, if in each of the first so many frames so many boxes
-are found, with so little room for each (square pixels, at the model's scale); faint ones among them, since of the
-densest crowds few others are found."""
+SUSPECTED_ROOM_PX2, CROWDED_ROOM_PX2, CROWD = 8000.0, 3500.0, 20
+"""A film is a crowd, and the model's model for crowds takes over, where that one finds `CROWD` bacteria in a frame or
+more, with less than `CROWDED_ROOM_PX2` square pixels for each, at the model's scale. It is asked only where the model
+itself has less than `SUSPECTED_ROOM_PX2` for each box, faint ones among them: of some crowds it finds hardly more."""
 SCALES = (0.05, 8.0)
 """Least and greatest factor frames are scaled by: what is more is a mistake, and would not fit into memory."""
 
@@ -103,11 +100,11 @@ def detect_film(
 ) -> Iterator[FrameDetections]:
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
-    Reads the film up to four times through `film.frame`, some of its frames three times more, in a crowd the first
-    ones once more, and holds a few of them. `report(stage, done, total)` is called at least once a frame in every stage
-    and may raise `CancelledError`. The backgrounds of a long film after the first are made while detecting, each when
-    its frames come. `warn(sentence)` is called with what the user should know about the film, `taken(model)` with the
-    model for crowds where it takes over, before the first frame.
+    Reads the film up to four times through `film.frame`, some of its frames three times more, and holds a few of them.
+    `report(stage, done, total)` is called at least once a frame in every stage and may raise `CancelledError`. The
+    backgrounds of a long film after the first are made while detecting, each when its frames come. `warn(sentence)` is
+    called with what the user should know about the film, `taken(model)` with the model for crowds where it takes over,
+    before the first frame.
 
     Raises:
         FilmError: the film holds values that are not finite.
@@ -120,11 +117,8 @@ def detect_film(
     scaled = film if scale == 1 else ScaledFilm(film, scale)
     factors = factors_of(film, scaled)
     region, threads = settings.region, settings.threads
-    nets = [
-        (by.card, by.engine(settings.engine, threads=threads), by.refiner(settings.engine, threads=threads))
-        for by in (model, model.crowds)
-        if by is not None
-    ]
+    net = _Net.of(model, settings, scale)
+    for_crowds = None if model.crowds is None else _Net.of(model.crowds, settings, scale)
 
     stabilising = _at(report, Stage.STABILISING)
     motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
@@ -146,45 +140,58 @@ def detect_film(
     )
     features = FilmFeatures(scene, model.card.features)
 
-    def search(card: ModelCard, engine: Engine, refiner: Refiner | None) -> Generator[FrameDetections]:
-        nonlocal done
-        pruner = replace(settings.pruner(card), max_size_px=settings.max_size_px / scale)
-        frames = (features.channels(i) for i in range(count))
-        with ahead(partial(_candidates, engine, refiner, card), frames, threads) as found:
-            for i, on_grid in enumerate(found):
-                done = i + 1
-                report(Stage.DETECTING, done, count)
-                candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
-                kept, counts = prune(candidates, pruner, region)
-                drift_x, drift_y = motion.drift[i] / factors
-                weak = faint(candidates, kept, pruner, region)
-                yield FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
+    def found(by: _Net, i: int, on_grid: Detections) -> FrameDetections:
+        candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
+        kept, counts = prune(candidates, by.pruner, region)
+        drift_x, drift_y = motion.drift[i] / factors
+        weak = faint(candidates, kept, by.pruner, region)
+        return FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
 
-    searching, first = search(*nets[0]), list[FrameDetections]()
-    if model.crowds is not None:
-        first += islice(searching, CROWD_FRAMES)
+    if for_crowds is not None:
+        seen = features.channels(scene.middle)
         area = (film.height * film.width if region is None else int(region.sum())) * scale**2
-        each = sum(len(found.detections) + len(found.faint) for found in first) / len(first)
-        if each >= CROWD and area < CROWDED_ROOM_PX2 * each:
-            searching.close()
-            warn(
-                f"In each of the first frames {each:.0f} boxes were found, faint ones among them, one for every "
-                f"{area / each:.0f} square pixels: model {model.card.crowds}, which is for crowds, takes over from "
-                f"{model.card.name} {model.card.version}."
-            )
-            taken(model.crowds)
-            searching, first = search(*nets[1]), []
-    with contextlib.closing(searching):
-        yield from first
-        yield from searching
+        usual = found(net, scene.middle, net.candidates(seen))
+        if area < SUSPECTED_ROOM_PX2 * (len(usual.detections) + len(usual.faint)):
+            crowd = len(found(for_crowds, scene.middle, for_crowds.candidates(seen)).detections)
+            if crowd >= CROWD and area < CROWDED_ROOM_PX2 * crowd:
+                warn(
+                    f"In frame {scene.middle + 1} there are {crowd} bacteria, one for every {area / crowd:.0f} square "
+                    f"pixels: model {model.card.crowds}, which is for crowds, takes over from {model.card.name} "
+                    f"{model.card.version}."
+                )
+                taken(for_crowds.model)
+                net = for_crowds
+    frames = (features.channels(i) for i in range(count))
+    with ahead(net.candidates, frames, threads) as candidates_of_frames:
+        for i, on_grid in enumerate(candidates_of_frames):
+            done = i + 1
+            report(Stage.DETECTING, done, count)
+            yield found(net, i, on_grid)
 
 
-def _candidates(engine: Engine, refiner: Refiner | None, card: ModelCard, channels: list[Channel]) -> Detections:
-    """Of one frame; with contrasts where the model's features hold the signed deviation."""
-    found, names = detect(engine, card.decoder, channels), card.features.channels
-    if refiner is not None:
-        found = refined(found, channels, refiner)
-    return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
+@dataclass(frozen=True, slots=True)
+class _Net:
+    """A model's nets, ready to run, and what is dropped of their candidates, in pixels of the film."""
+
+    model: Model
+    engine: Engine
+    refiner: Refiner | None
+    pruner: PrunerSettings
+
+    @classmethod
+    def of(cls, model: Model, settings: DetectionSettings, scale: float) -> _Net:
+        """See `Model.engine` for what it raises."""
+        kind, threads = settings.engine, settings.threads
+        pruner = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale)
+        return cls(model, model.engine(kind, threads=threads), model.refiner(kind, threads=threads), pruner)
+
+    def candidates(self, channels: list[Channel]) -> Detections:
+        """Of one frame; with contrasts where the model's features hold the signed deviation."""
+        card = self.model.card
+        found, names = detect(self.engine, card.decoder, channels), card.features.channels
+        if self.refiner is not None:
+            found = refined(found, channels, self.refiner)
+        return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
 
 
 def mended(film: Film) -> Film:

@@ -121,6 +121,11 @@ class Scene:
         self._slopes: tuple[tuple[int, tuple[int, int]], Slopes] | None = None
         self._alive = alive
 
+    @property
+    def middle(self) -> int:
+        """The frame in the middle of the first background's."""
+        return self._windows.length // 2
+
     def place(self, index: int) -> tuple[int, int]:
         """Whole pixels (x, y) the scene stands from its place in frame 0."""
         return split_drift(self.motion.drift[index])[0]
