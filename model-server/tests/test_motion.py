@@ -84,6 +84,14 @@ def test_neighbours_of_a_drifting_film_are_brought_to_the_frames_place() -> None
     assert (made.frame(20)[1, :, :4] == NEUTRAL).all()  # not in the field 2 frames before
 
 
+def test_a_frame_has_the_same_features_in_a_film_gone_through_as_on_its_own() -> None:
+    drift = np.stack([0.3 * np.arange(24), np.zeros(24)], axis=1)
+    scene = Scene(ArrayFilm(noisy(24)), FilmMotion(drift, np.ones(24)), report=lambda done, total: None)
+    forwards = FilmFeatures(scene, MOTION)
+    for i in (*range(24), 11, 3, 4):
+        np.testing.assert_array_equal(forwards.frame(i), FilmFeatures(scene, MOTION).frame(i))
+
+
 def test_first_and_last_frame_have_features() -> None:
     made = features_of(noisy(4), MOTION)
     for i in range(4):

@@ -13,8 +13,7 @@ import memtrack
 from memtrack import pipeline
 from memtrack.channels import Channel
 from memtrack.defects import without_defects
-from memtrack.detections import Detections
-from memtrack.detector import Decoder, Engine, detect
+from memtrack.detector import padded
 from memtrack.errors import SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
@@ -104,11 +103,11 @@ def test_an_annotated_film_has_the_features_that_detection_sees(
     entry = Annotated("film.tif", "film.csv", pixel_size_um=0.2475, frame_interval_seconds=1 / 60)
     (samples,) = annotated_samples([entry], model.card.features, model.card.cell_length_px, tmp_path, seed=1)
 
-    def listening(engine: Engine, decoder: Decoder, channels: list[Channel]) -> Detections:
+    def listening(channels: list[Channel]) -> np.ndarray:
         shown.append(np.stack(channels))
-        return detect(engine, decoder, channels)
+        return padded(channels)
 
-    monkeypatch.setattr(pipeline, "detect", listening)
+    monkeypatch.setattr(pipeline, "padded", listening)
     film = ArrayFilm(frames, Calibration(0.2475, 1 / 60))
     list(detect_film(film, model, DetectionSettings(threads=1), lambda stage, done, total: None))
     np.testing.assert_array_equal(samples.features, np.stack(shown))

@@ -63,7 +63,7 @@ class FilmFeatures:
     def __init__(self, scene: Scene, spec: FeatureSpec) -> None:
         self.film, self.motion, self.scene, self.spec = scene.film, scene.motion, scene, spec
         self._known: dict[int, tuple[Channel, Channel]] = {}
-        self._sum = np.empty((scene.film.height, scene.film.width), np.float32)
+        self._sums: dict[tuple[int, int], tuple[tuple[int, int], range, Image]] = {}
         self._reach = max([abs(o) for c in spec.channels if _NEIGHBOUR.fullmatch(c) for o in _offsets(c)], default=0)
 
     def frame(self, index: int) -> UInt8[np.ndarray, "channel height width"]:
@@ -120,12 +120,24 @@ class FilmFeatures:
         others = range(max(index + first, 0), min(index + last, self.film.frame_count - 1) + 1)
         if not others:
             return np.full((self.film.height, self.film.width), NEUTRAL, np.uint8)
-        total = self._sum
-        total[...] = 0
-        for other in others:
-            cv2.accumulate(self._neighbour(index, other - index), total)
+        total = self._sum(index, (first, last), others)
         mean = cv2.addWeighted(total, MEAN_GAIN / len(others), total, 0, NEUTRAL * (1 - MEAN_GAIN), dtype=cv2.CV_8U)
         return np.asarray(mean, np.uint8)
+
+    def _sum(self, index: int, key: tuple[int, int], others: range) -> Image:
+        """Sum of the deviations of `others` where the scene stands in frame `index`: the last one under `key`, most of
+        whose frames are the same, brought up to date if the scene stands as it did then."""
+        place, height, width = self.scene.place(index), self.film.height, self.film.width
+        known = self._sums.get(key)
+        if known is None or known[0] != place or not set(known[1]) & set(others):
+            known = place, range(0), np.zeros((height, width), np.float32)
+        _, before, total = known
+        for old in set(before) - set(others):
+            total -= self._neighbour(index, old - index)
+        for new in set(others) - set(before):
+            cv2.accumulate(self._neighbour(index, new - index), total)
+        self._sums[key] = place, others, total
+        return total
 
     def _at_place_of(self, index: int, other: int, image: np.ndarray, missing: float) -> np.ndarray:
         """`image` of frame `other` where the scene stands in frame `index`."""

@@ -15,7 +15,7 @@ from memtrack.channels import Channel
 from memtrack.contrast import with_contrasts
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections, Level
-from memtrack.detector import Engine, detect
+from memtrack.detector import Engine, padded
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.lookahead import ahead
@@ -187,10 +187,11 @@ class _Net:
 
     def candidates(self, channels: list[Channel]) -> Detections:
         """Of one frame; with contrasts where the model's features hold the signed deviation."""
-        card = self.model.card
-        found, names = detect(self.engine, card.decoder, channels), card.features.channels
+        decoder, names = self.model.card.decoder, self.model.card.features.channels
+        (height, width), together = channels[0].shape, padded(channels)
+        found = decoder.decode(self.engine.run(together), height, width)
         if self.refiner is not None:
-            found = refined(found, channels, self.refiner)
+            found = refined(found, together[:, :height, :width], self.refiner)
         return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
 
 
