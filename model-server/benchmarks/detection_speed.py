@@ -52,7 +52,7 @@ def main() -> None:
     motion = timed("stabilisation", n, lambda: measure_motion(film, stabilise=True, report=silent))
     scene = timed("background", n, lambda: Scene(film, motion, report=silent))
     made = FilmFeatures(scene, model.card.features)
-    # Dropped at once, as the method does: room for features that are kept takes longer than making them.
+    # Dropped at once, as the method does: room for features that are kept takes as long as making them.
     timed("features", n, lambda: [len(made.channels(i)) for i in range(n)])
     features = [made.channels(i) for i in range(n)]
     engine, decoder = model.engine(), model.card.decoder

@@ -78,6 +78,10 @@ def test_a_file_outside_the_models_folder_is_refused(registry: Path, tmp_path: P
         {"thresholds": {"max_precision": [0.5, 0.5], "max_f1": [0.5, 0.5]}, "levels": ["low", "high"]},
         {"architecture": None},
         {"name": 5},
+        {"crowds": 5},
+        {"crowds": "crowded"},
+        {"crowds": "crowded 1 2"},
+        {"crowds": "../crowded 1"},
     ],
 )
 def test_a_card_that_is_not_one_is_refused(change: dict[str, object]) -> None:

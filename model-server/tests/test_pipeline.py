@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The whole method on simulated films whose truth is known."""
+"""The whole method: on simulated films whose truth is known, and at the edges of what it takes."""
 
 import re
 from dataclasses import replace
@@ -88,14 +88,15 @@ def test_the_model_for_crowds_takes_over_in_a_crowd_and_finds_more_of_it(model: 
     usual = judge(made, found(made.film, replace(model, crowds=None)))
     found(gel.film, model)
     assert not said + taken
-    crowded = judge(made, found(made.film, model))
+    by_default = found(made.film, model)
+    crowded = judge(made, by_default)
     assert taken == [model.crowds]
     assert len(said) == 1
     assert re.match(r"In frame 21 there are \d+ bacteria, .* \d+ square pixels: model crowded 1, ", said[0])
     assert crowded[1] > usual[1] + 0.1
     assert crowded[0] > 0.95
-    for of_model, by_it in zip(found(made.film, model), found(made.film, load_model("crowded", "1")), strict=True):
-        np.testing.assert_array_equal(of_model.detections.boxes, by_it.detections.boxes)
+    for one, other in zip(by_default, found(made.film, load_model("crowded", "1")), strict=True):
+        np.testing.assert_array_equal(one.detections.boxes, other.detections.boxes)
 
 
 def test_drift_and_flicker_cost_little_and_boxes_stay_in_the_film_the_user_sees(model: Model) -> None:

@@ -86,6 +86,10 @@ class ModelCard:
             values["architecture"] = dict(values["architecture"])
             check_name(values["name"])
             check_name(values["version"])
+            if values.get("crowds"):
+                name, version = values["crowds"].split(" ")
+                check_name(name)
+                check_name(version)
             card = ModelCard(**values)
         except (ValueError, TypeError, KeyError, AttributeError, SettingsError) as error:
             raise ModelCorruptError(f"a model card cannot be read ({error}): install the model again") from error
@@ -184,7 +188,7 @@ def load_model(name: str = "default", version: str | None = None) -> Model:
     """
     model = _load(name, version)
     crowds = model.card.crowds
-    return dataclasses.replace(model, crowds=_load(*crowds.split(maxsplit=1))) if crowds else model
+    return dataclasses.replace(model, crowds=_load(*crowds.split(" "))) if crowds else model
 
 
 def _load(name: str, version: str | None = None) -> Model:

@@ -63,6 +63,7 @@ class FilmFeatures:
     def __init__(self, scene: Scene, spec: FeatureSpec) -> None:
         self.film, self.motion, self.scene, self.spec = scene.film, scene.motion, scene, spec
         self._known: dict[int, tuple[Channel, Channel]] = {}
+        # By the first and last offset of a mean: where the scene stood, which frames were added up, and their sum.
         self._sums: dict[tuple[int, int], tuple[tuple[int, int], range, Image]] = {}
         self._reach = max([abs(o) for c in spec.channels if _NEIGHBOUR.fullmatch(c) for o in _offsets(c)], default=0)
 
