@@ -43,6 +43,7 @@ def test_every_field_arrives() -> None:
             max_size_px=40,
             nms_iou=0.5,
             no_stabilisation=True,
+            resting=True,
             region=pb.RegionOfInterest(mask=np.packbits(mask).tobytes()),
         ),
         Limits(),
@@ -52,7 +53,7 @@ def test_every_field_arrives() -> None:
     settings = request.settings
     assert (settings.model, settings.version, settings.criterion) == ("mine", "3", "max_f1")
     assert (settings.thresholds, settings.max_size_px, settings.nms_iou) == ((0.1, 0.2, 0.3), 40, 0.5)
-    assert (settings.stabilise, settings.cell_length_px) == (False, 8.5)
+    assert (settings.stabilise, settings.resting, settings.cell_length_px) == (False, True, 8.5)
     assert settings.region is not None
     np.testing.assert_array_equal(settings.region, mask)
 
@@ -119,6 +120,7 @@ sizes = st.integers(-(2**31), 2**31 - 1) | st.integers(-2, 70)
             "max_size_px": numbers,
             "nms_iou": numbers,
             "no_stabilisation": st.booleans(),
+            "resting": st.booleans(),
             "region": st.builds(pb.RegionOfInterest, mask=st.binary(max_size=600)),
         },
     )

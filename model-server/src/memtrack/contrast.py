@@ -24,7 +24,7 @@ def with_contrasts(found: Detections, deviation: Channel) -> Detections:
         deviation: v as `memtrack.channels.signed` squeezes it.
     """
     means = cv2.boxFilter(deviation, cv2.CV_32F, (WINDOW_PX, WINDOW_PX))
-    columns, rows = np.rint((found.boxes[:, :2] + found.boxes[:, 2:]) / 2).astype(np.intp).T
+    columns, rows = np.rint(found.centres).astype(np.intp).T
     height, width = means.shape
     at_centres = means[rows.clip(0, height - 1), columns.clip(0, width - 1)]
     return replace(found, contrasts=(at_centres - NEUTRAL) / np.float32(127))

@@ -46,6 +46,11 @@ class Detections:
     def __len__(self) -> int:
         return len(self.boxes)
 
+    @property
+    def centres(self) -> Float32[np.ndarray, "n 2"]:
+        """Middle of each box, (x, y)."""
+        return (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
+
     def select(self, rows: np.ndarray) -> Detections:
         """The detections at `rows`, a boolean mask or an array of indices, in that order."""
         contrasts = None if self.contrasts is None else self.contrasts[rows]

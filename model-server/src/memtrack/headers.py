@@ -110,6 +110,7 @@ def _settings(header: pb.FilmHeader, geometry: FilmGeometry) -> DetectionSetting
         max_size_px=header.max_size_px if header.HasField("max_size_px") else defaults.max_size_px,
         nms_iou=header.nms_iou if header.HasField("nms_iou") else defaults.nms_iou,
         stabilise=not header.no_stabilisation,
+        resting=header.resting,
         region=_region(header, geometry),
         cell_length_px=header.cell_length_px if header.HasField("cell_length_px") else None,
     )

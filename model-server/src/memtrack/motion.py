@@ -86,6 +86,10 @@ class FilmFeatures:
             del self._known[old]
         return channels
 
+    def deviation(self, index: int) -> Image:
+        """How far frame `index`, aligned, deviates from the background, in units of the noise."""
+        return self._deviation_values(index, aligned_frame(self.film, self.motion, index))
+
     def _channel(self, name: str, index: int, current: Callable[[], Image]) -> Channel:
         if _NEIGHBOUR.fullmatch(name):
             first, last = _offsets(name)

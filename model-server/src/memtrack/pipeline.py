@@ -25,6 +25,7 @@ from memtrack.progress import Report, Stage
 from memtrack.pruning import PrunerSettings, faint, prune
 from memtrack.refinement import Refiner, refined
 from memtrack.resampling import ScaledFilm, factors_of
+from memtrack.resting import SIGHTS, Looks
 from memtrack.scene import Scene
 from memtrack.stabilisation import measure_motion
 
@@ -53,6 +54,7 @@ class DetectionSettings:
     max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where boxes are 30.
     nms_iou: of boxes that overlap more only the best stays; 0.7 in the paper.
     stabilise: take stage drift out before the median.
+    resting: find bacteria that rest all through the film, too, and debris that looks like them (`memtrack.resting`).
     region: where detections are wanted, of the film's height and width; None is everywhere.
     cell_length_px: length of a bacterium in pixels of this film. None: from the pixel size and 2 um, or, without a
         pixel size, such as the model knows.
@@ -69,6 +71,7 @@ class DetectionSettings:
     max_size_px: float = 35.0
     nms_iou: float = 0.7
     stabilise: bool = True
+    resting: bool = False
     region: Bool[np.ndarray, "height width"] | None = None
     cell_length_px: float | None = None
     engine: str = "auto"
@@ -131,13 +134,11 @@ def detect_film(
             f"{len(motion.unlit)} of {count} frames are far darker or brighter than the others and are not used; the "
             f"first is number {min(motion.unlit) + 1}."
         )
-    scene = Scene(
-        scaled,
-        motion,
-        report=_at(report, Stage.BACKGROUND),
-        alive=lambda: report(Stage.DETECTING, done, count),
-        threads=threads,
-    )
+
+    def alive() -> None:
+        report(Stage.DETECTING, done, count)
+
+    scene = Scene(scaled, motion, report=_at(report, Stage.BACKGROUND), alive=alive, threads=threads)
     features = FilmFeatures(scene, model.card.features)
 
     def found(by: _Net, i: int, on_grid: Detections) -> FrameDetections:
@@ -147,6 +148,9 @@ def detect_film(
         weak = faint(candidates, kept, by.pruner, region)
         return FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
 
+    if settings.resting:
+        warn(_free_resting(scene, features, net, settings, alive))
+        features = FilmFeatures(scene, model.card.features)  # of the new background
     if for_crowds is not None:
         seen = features.channels(scene.middle)
         area = (film.height * film.width if region is None else int(region.sum())) * scale**2
@@ -167,6 +171,24 @@ def detect_film(
             done = i + 1
             report(Stage.DETECTING, done, count)
             yield found(net, i, on_grid)
+
+
+def _free_resting(
+    scene: Scene, features: FilmFeatures, net: _Net, settings: DetectionSettings, alive: Callable[[], None]
+) -> str:
+    """Takes bacteria that rest out of the background, by the looks of those that move; what the user should know."""
+    pruner = settings.pruner(net.model.card)  # at the model's scale, as the boxes here
+    moving = []
+    for i in np.unique(np.linspace(0, 2 * scene.middle, SIGHTS + 2)[1:-1].astype(int)).tolist():
+        alive()
+        moving.append((features.deviation(i), prune(net.candidates(features.channels(i)), pruner)[0]))
+    looks = Looks.of(moving)
+    if looks is None:
+        return "No resting bacteria were looked for: too few move that could tell how a bacterium of this film looks."
+    count = scene.free_resting(looks)
+    return (
+        f"{count} spots that never move are as dark or as bright as the bacteria that move, and may be found with them."
+    )
 
 
 @dataclass(frozen=True, slots=True)

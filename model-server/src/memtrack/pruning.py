@@ -102,7 +102,7 @@ def _passes(detections: Detections, settings: PrunerSettings) -> Bool[np.ndarray
 
 
 def _inside(detections: Detections, region: Bool[np.ndarray, "height width"]) -> Bool[np.ndarray, " n"]:
-    centres = np.rint((detections.boxes[:, :2] + detections.boxes[:, 2:]) / 2).astype(np.int64)
+    centres = np.rint(detections.centres).astype(np.int64)
     columns = np.clip(centres[:, 0], 0, region.shape[1] - 1)
     rows = np.clip(centres[:, 1], 0, region.shape[0] - 1)
     inside: np.ndarray = region[rows, columns]

@@ -50,7 +50,7 @@ def refined(found: Detections, channels: Features, refiner: Refiner) -> Detectio
         channels: features of the frame they were found in.
         refiner: of the model that found them.
     """
-    centres, owner = np.unique((found.boxes[:, :2] + found.boxes[:, 2:]) / 2, axis=0, return_inverse=True)
+    centres, owner = np.unique(found.centres, axis=0, return_inverse=True)
     owner = owner.ravel()
     best = np.zeros(len(centres), np.float32)
     np.maximum.at(best, owner, found.scores)

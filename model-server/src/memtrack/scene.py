@@ -20,6 +20,7 @@ from memtrack.background import Background, Progress, split_drift, temporal_back
 from memtrack.channels import Channel, Image, shading_of, signed
 from memtrack.film import Film
 from memtrack.fixed_pattern import fixed_pattern
+from memtrack.resting import Looks, without_resting
 from memtrack.stabilisation import FilmMotion
 from memtrack.tethered import without_tethered
 from memtrack.wobble import Slopes
@@ -117,9 +118,19 @@ class Scene:
         self.film, self.motion, self._threads = film, motion, threads
         self._windows = Windows.of(film)
         self._whole_numbers = film.frame(0).dtype.kind == "u"
+        self._looks: Looks | None = None
         self._stills = {0: self._made(0, report)}
         self._slopes: tuple[tuple[int, tuple[int, int]], Slopes] | None = None
         self._alive = alive
+
+    def free_resting(self, looks: Looks) -> int:
+        """Takes bacteria that rest out of all backgrounds, and says how many the first one has; for a scene of which no
+        other is made yet. looks: of the film's bacteria that move."""
+        self._looks, self._slopes = looks, None
+        still = self._stills[0]
+        background, count = without_resting(still.background, still.noise, looks)
+        self._stills[0] = still.with_median_of(background)
+        return count
 
     @property
     def middle(self) -> int:
@@ -192,6 +203,8 @@ class Scene:
                 background = self._background(window, report)
         still = Still.of(background, whole_numbers=self._whole_numbers)
         freed = without_tethered(background, self.film, self.motion, window, still.noise, lambda: report(1, 1))
+        if self._looks is not None:
+            freed, _ = without_resting(freed, still.noise, self._looks)
         return still if freed is background else still.with_median_of(freed)
 
     def _background(self, window: range, report: Progress) -> Background:

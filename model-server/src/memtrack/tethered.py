@@ -11,34 +11,24 @@ The numbers were chosen on simulated films (docs/experiments.md, "Tethered bacte
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import cv2
 import numpy as np
-from jaxtyping import Bool, Float, Float32, Int64
+from jaxtyping import Bool, Float, Float32
 
 from memtrack.background import Background, aligned_frame, split_drift
 from memtrack.film import Film
+from memtrack.spots import REACH_PX, Patches, Spots
 from memtrack.stabilisation import FilmMotion
 
 SAMPLES = 48
 """Frames, spread evenly over those of the background."""
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
-CONTRAST, CLEARNESS = 3.0, 3.0
-"""A spot stands out so many times more than the noise, and than what is around it."""
-CLEAR = 5.0
-"""What may be a bacterium stands out so many times more than what is around it: not so in most gels, where grain is as
-large as a bacterium and no one knows what is behind it."""
-STEADY = 0.5
-"""It must stand out more than this share of what varies there, or it is what a body left that lay there for a while."""
-MOST = 500
-"""Spots that are looked at, the strongest ones."""
-REACH_PX, WIDTH_PX = 7, 4.0
-"""Half the edge of the patch around a spot, and the width (sigma) of its Gaussian weights."""
-SEPARATE_PX = 13
-"""Spots nearer than this, along x and y, may be of one bacterium."""
+WIDTH_PX = 4.0
+"""Width (sigma) of the Gaussian weights of the patch around a spot."""
 LOUDEST = 20.0
 """Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
 OWN_SHARE = 0.75
@@ -55,31 +45,7 @@ LEAST_STEP_PX = 0.11
 """Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
 
 
-_Sample = tuple[Float32[np.ndarray, "spot edge edge"], Bool[np.ndarray, " spot"]]
-
-
-@dataclass(frozen=True, slots=True)
-class _Spots:
-    """Places of a background where something as small as a bacterium stands out, the strongest first, and which of
-    them may be one."""
-
-    x: Int64[np.ndarray, " spot"]
-    y: Int64[np.ndarray, " spot"]
-    clear: Bool[np.ndarray, " spot"]
-
-    def patches(self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)) -> _Sample:
-        """What is around each spot in an image in which the background's corner lies at `place` (x, y), and whether the
-        image shows all of it."""
-        h, w = image.shape
-        x, y = self.x + place[0], self.y + place[1]
-        whole = (x >= REACH_PX) & (x < w - REACH_PX) & (y >= REACH_PX) & (y < h - REACH_PX)
-        across = np.arange(-REACH_PX, REACH_PX + 1)
-        rows, columns = np.clip(y[:, None] + across, 0, h - 1), np.clip(x[:, None] + across, 0, w - 1)
-        return image[rows[:, :, None], columns[:, None, :]], whole
-
-    def near(self) -> Bool[np.ndarray, "spot spot"]:
-        """Which may be of the same bacterium; each is near itself."""
-        return np.maximum(np.abs(self.x[:, None] - self.x), np.abs(self.y[:, None] - self.y)) < SEPARATE_PX
+_Sample = tuple[Patches, Bool[np.ndarray, " spot"]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,33 +77,15 @@ def without_tethered(
         noise: what a deviation must exceed, in grey levels.
         alive: called for each frame that is read.
     """
-    spots = _spots(background, noise)
+    spots = Spots.of(background, noise)
     if not spots.clear.any():
         return background
     moves = _moves(spots, _samples(spots, background, film, motion, frames, alive), background.median, noise)
     # The halo of a bacterium moves with it, that of debris beside it does not: only the strongest spot is asked.
-    held = spots.clear & _moves_by_itself(spots, moves) & ~np.tril(spots.near(), -1).any(axis=1)
-    if not held.any():
-        return background
-    return replace(background, median=_filled(background, spots.x[held], spots.y[held]))
+    return spots.filled(background, spots.clear & _moves_by_itself(spots, moves) & spots.strongest())
 
 
-def _spots(background: Background, noise: float) -> _Spots:
-    median = background.median
-    band = cv2.GaussianBlur(median, (0, 0), 1.2) - cv2.GaussianBlur(median, (0, 0), 6)
-    height = np.abs(band)
-    # A bright spot, cut, does not count as its own surroundings.
-    cut = np.minimum(height, 8 * float(np.median(height)) + 1e-6)
-    around = np.sqrt(cv2.GaussianBlur(cut * cut, (0, 0), 12))
-    peak = cv2.dilate(height, np.ones((7, 7), np.uint8)) == height
-    y, x = np.nonzero(peak & (height > np.maximum(CONTRAST * noise, CLEARNESS * around)))
-    strongest = np.argsort(-height[y, x], kind="stable")[:MOST]
-    x, y = x[strongest], y[strongest]
-    clear = height[y, x] > np.maximum(CLEAR * around, STEADY * background.spread)[y, x]
-    return _Spots(x, y, clear)
-
-
-def _moves(spots: _Spots, samples: Iterator[_Sample], median: Float32[np.ndarray, "h w"], noise: float) -> _Moves:
+def _moves(spots: Spots, samples: Iterator[_Sample], median: Float32[np.ndarray, "h w"], noise: float) -> _Moves:
     """Steps from sample to sample, by the slopes of the median (Lucas and Kanade, 1981)."""
     smooth = cv2.GaussianBlur(median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
@@ -170,7 +118,7 @@ def _moves(spots: _Spots, samples: Iterator[_Sample], median: Float32[np.ndarray
 
 
 def _samples(
-    spots: _Spots, background: Background, film: Film, motion: FilmMotion, frames: range, alive: Callable[[], None]
+    spots: Spots, background: Background, film: Film, motion: FilmMotion, frames: range, alive: Callable[[], None]
 ) -> Iterator[_Sample]:
     """What is around each spot in some of the frames, and whether these show all of it."""
     left, top = background.origin
@@ -181,7 +129,7 @@ def _samples(
             yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
 
 
-def _moves_by_itself(spots: _Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
+def _moves_by_itself(spots: Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
     """Which spots move, and in no rhythm that others have too."""
     seen = ~np.isnan(moves.steps[:, 0])
     told = (seen.sum(axis=1) >= LEAST_STEPS) & ((~spots.near()).sum(axis=1) >= FEWEST_OTHERS)
@@ -197,7 +145,7 @@ def _moves_by_itself(spots: _Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
     return told & far & by_itself & (moves.explained > ALIKE)
 
 
-def _rhythm_of_others(spots: _Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
+def _rhythm_of_others(spots: Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
     """For each spot the course in time, of length 1, that explains most of the steps of those apart from it."""
     count = rows.shape[2]
     length = np.linalg.norm(rows, axis=2, keepdims=True)
@@ -219,17 +167,3 @@ def _median(known: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "sp
     """Of what is not NaN; 0 where nothing is."""
     known = np.where(np.isnan(known).all(axis=2, keepdims=True), 0, known)
     return np.asarray(np.nanmedian(known, axis=2, keepdims=True))
-
-
-def _filled(
-    background: Background, x: Int64[np.ndarray, " held"], y: Int64[np.ndarray, " held"]
-) -> Float32[np.ndarray, "h w"]:
-    """The median with the mean of what surrounds it in place of each of these spots."""
-    median = background.median
-    # Places that no frame shows have no spread; nor has a film without noise, where these count all the same.
-    free = np.where(background.spread > 0, np.float32(1), np.float32(1e-3))
-    for centre in zip(x.tolist(), y.tolist(), strict=True):
-        cv2.circle(free, centre, REACH_PX, 0.0, -1)
-    around = cv2.GaussianBlur(median * free, (0, 0), 5) / np.maximum(cv2.GaussianBlur(free, (0, 0), 5), 1e-6)
-    kept = cv2.GaussianBlur((free > 0).astype(np.float32), (0, 0), 1)
-    return np.asarray(median * kept + around * (1 - kept), np.float32)

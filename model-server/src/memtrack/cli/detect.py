@@ -40,6 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--max-size-px", type=float, default=default.max_size_px, help="greatest box (default: %(default)s)")
     add("--nms-iou", type=float, default=default.nms_iou, help="greatest overlap (default: %(default)s)")
     add("--no-stabilisation", action="store_true", help="do not undo the drift of the stage")
+    add("--resting", action="store_true", help="find bacteria that never move, too, and debris like them")
     add("--region", type=Path, help="image of the film's size; detections are reported where it is not black")
     add("--cell-length-px", type=positive, help="length of a cell in this film, pixels")
     add("--pixel-size-um", type=positive, help="edge of a pixel, um (default: what the film says)")
@@ -99,6 +100,7 @@ def _settings(options: argparse.Namespace) -> DetectionSettings:
         max_size_px=options.max_size_px,
         nms_iou=options.nms_iou,
         stabilise=not options.no_stabilisation,
+        resting=options.resting,
         region=None if options.region is None else _region(options.region),
         cell_length_px=options.cell_length_px,
         engine=options.engine,

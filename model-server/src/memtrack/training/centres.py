@@ -58,7 +58,7 @@ def centre_samples(films: Sequence[FilmSamples], engine: Engine, decoder: Decode
             found = found.select(non_maximum_suppression(found.boxes, found.scores, 0.7))
             if not len(found):
                 continue
-            centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+            centres = found.centres
             distance = np.hypot(*(wanted[:, None] - centres[None]).transpose(2, 0, 1))
             nearest = distance.argmin(axis=1)
             own = (distance.min(axis=1) <= MATCH_PX) & (distance.argmin(axis=0)[nearest] == np.arange(len(wanted)))

@@ -77,7 +77,7 @@ def score_films(
 def match(found: Detections, truth: Float32[np.ndarray, "n 4"]) -> tuple[np.ndarray, ...]:
     """Best scored first, each detection takes the nearest free bacterium within `MATCH_PX`; those that take an ignored
     one are left out."""
-    centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    centres = found.centres
     right, keep = np.zeros(len(found), bool), np.ones(len(found), bool)
     error, level = np.full(len(found), np.nan), np.full(len(found), -1)
     free = np.ones(len(truth), bool)

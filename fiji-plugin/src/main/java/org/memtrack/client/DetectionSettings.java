@@ -16,6 +16,8 @@ import org.memtrack.video.RegionMask;
  * @param nmsIou of two boxes whose intersection over union exceeds this, in [0, 1], the weaker is dropped; null for 0.7, as
  *     in the paper
  * @param stabilise whether to measure and undo the drift of the stage before the temporal median
+ * @param resting whether to find bacteria that rest all through the film, too: what stays in its place and is as dark or as
+ *     bright as those that move, some debris with it
  * @param cellLengthPx length of a cell as it looks in this film, in pixels, from {@value #LEAST_CELL_LENGTH_PX} to
  *     {@value #GREATEST_CELL_LENGTH_PX}; the film is scaled by it, whatever its pixel size; null to go by the pixel size, at
  *     which cells are taken to be 2 um long, or without one not to scale
@@ -29,6 +31,7 @@ public record DetectionSettings(
         @Nullable Double maxSizePx,
         @Nullable Double nmsIou,
         boolean stabilise,
+        boolean resting,
         @Nullable Double cellLengthPx,
         @Nullable RegionMask region) {
 
@@ -42,7 +45,7 @@ public record DetectionSettings(
 
     /** The default model over the whole film, at maximum F1: false positives are dropped with their tracks. */
     public static final DetectionSettings DEFAULTS =
-            new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, null, null);
+            new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, false, null, null);
 
     public DetectionSettings {
         if (!NAME.matcher(model).matches()) {
@@ -65,6 +68,15 @@ public record DetectionSettings(
     /** The same settings, reporting only inside a region. */
     public DetectionSettings withRegion(@Nullable RegionMask newRegion) {
         return new DetectionSettings(
-                model, modelVersion, criterion, thresholds, maxSizePx, nmsIou, stabilise, cellLengthPx, newRegion);
+                model,
+                modelVersion,
+                criterion,
+                thresholds,
+                maxSizePx,
+                nmsIou,
+                stabilise,
+                resting,
+                cellLengthPx,
+                newRegion);
     }
 }

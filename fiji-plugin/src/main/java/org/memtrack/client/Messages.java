@@ -39,7 +39,8 @@ final class Messages {
                 .setModelName(settings.model())
                 .setModelVersion(settings.modelVersion())
                 .setCriterion(criterion(settings.criterion()))
-                .setNoStabilisation(!settings.stabilise());
+                .setNoStabilisation(!settings.stabilise())
+                .setResting(settings.resting());
         info.pixelSizeMicrometres().ifPresent(header::setPixelSizeUm);
         info.frameIntervalSeconds().ifPresent(header::setFrameIntervalSeconds);
         if (settings.cellLengthPx() != null) {

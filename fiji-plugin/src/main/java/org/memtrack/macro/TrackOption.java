@@ -58,6 +58,12 @@ public enum TrackOption {
             "",
             "length of a cell as it looks in the film, 1 to 200 pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is"),
     STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
+    RESTING(
+            "resting",
+            "Find resting cells, too",
+            Kind.SWITCH,
+            "false",
+            "find cells that never move, too: what stays in its place and is as dark or as bright as the cells that move, some debris with it; where the medium is clear"),
     OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
 
     FRAMES(

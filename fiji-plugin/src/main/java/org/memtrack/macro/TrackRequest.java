@@ -138,6 +138,7 @@ public record TrackRequest(
                 orNull(values.number(MAX_SIZE)),
                 orNull(values.number(NMS_IOU)),
                 values.flag(STABILISE),
+                values.flag(RESTING),
                 orNull(values.number(CELL_LENGTH)),
                 null);
     }

@@ -35,6 +35,7 @@ final class DetectorPanel extends ConfigurationPanel {
     private final JSpinner maximumSize = Form.number(0, 0, 10_000, 1);
     private final JSpinner nmsIou = Form.number(0, 0, 1, 0.05);
     private final JCheckBox stabilise = new JCheckBox("Undo drift of the stage", true);
+    private final JCheckBox resting = new JCheckBox("Find resting cells, too");
     private final JButton previewButton = new JButton("Preview");
     private final JLabel previewState = new JLabel();
     private final transient DetectorPreview preview;
@@ -90,6 +91,11 @@ final class DetectorPanel extends ConfigurationPanel {
                         + " film as you see it.",
                 TEXT_WIDTH));
         form.note(stabilise);
+        resting.setToolTipText(Form.wrapped(
+                "Find cells that never move, too: what stays in its place and is as dark or as bright as the cells that"
+                        + " move, some debris with it; where the medium is clear.",
+                TEXT_WIDTH));
+        form.note(resting);
         form.row(
                 "",
                 previewButton,
@@ -141,6 +147,7 @@ final class DetectorPanel extends ConfigurationPanel {
         maximumSize.setValue(settings.get(DetectorSettings.MAXIMUM_SIZE));
         nmsIou.setValue(settings.get(DetectorSettings.NMS_IOU));
         stabilise.setSelected((Boolean) settings.get(DetectorSettings.STABILISE));
+        resting.setSelected((Boolean) settings.get(DetectorSettings.RESTING));
         enableThresholds();
         showCard();
     }
@@ -159,6 +166,7 @@ final class DetectorPanel extends ConfigurationPanel {
         settings.put(DetectorSettings.MAXIMUM_SIZE, number(maximumSize));
         settings.put(DetectorSettings.NMS_IOU, number(nmsIou));
         settings.put(DetectorSettings.STABILISE, stabilise.isSelected());
+        settings.put(DetectorSettings.RESTING, resting.isSelected());
         return settings;
     }
 

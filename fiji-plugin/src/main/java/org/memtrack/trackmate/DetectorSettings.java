@@ -28,6 +28,7 @@ final class DetectorSettings {
     static final String MAXIMUM_SIZE = "MAXIMUM_SIZE_PX";
     static final String NMS_IOU = "NMS_IOU";
     static final String STABILISE = "STABILISE";
+    static final String RESTING = "RESTING";
 
     static final SettingsMap MAP = new SettingsMap(MemtrackDetectorFactory.NAME, defaults());
 
@@ -54,6 +55,7 @@ final class DetectorSettings {
         map.put(MAXIMUM_SIZE, 0.0);
         map.put(NMS_IOU, 0.0);
         map.put(STABILISE, true);
+        map.put(RESTING, false);
         return map;
     }
 
@@ -79,6 +81,7 @@ final class DetectorSettings {
                 given(map, MAXIMUM_SIZE),
                 given(map, NMS_IOU),
                 (Boolean) map.get(STABILISE),
+                (Boolean) map.get(RESTING),
                 given(map, CELL_LENGTH),
                 null);
     }

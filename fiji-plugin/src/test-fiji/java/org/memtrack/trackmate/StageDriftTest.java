@@ -109,7 +109,7 @@ class StageDriftTest {
         ImagePlus image = film();
         ImageFilm film = new ImageFilm(image, FilmOptions.DEFAULTS);
         TrackingSettings settings = new TrackingSettings(
-                new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, 8.0, null),
+                new DetectionSettings("", "", Criterion.MAXIMUM_F1, null, null, null, true, false, 8.0, null),
                 SortSettings.DEFAULTS.with(TrackFilter.ofLength(10)),
                 ServerSettings.DEFAULTS,
                 true);

@@ -91,6 +91,7 @@ class DetectionClientTest {
                 33.0,
                 0.6,
                 false,
+                true,
                 8.0,
                 new RegionMask(7, 5, inside));
         try (ScriptedServer server = new ScriptedServer(DetectionClientTest::answerFourFrames)) {
@@ -110,6 +111,7 @@ class DetectionClientTest {
             assertThat(full.getMaxSizePx()).isEqualTo(33);
             assertThat(full.getNmsIou()).isEqualTo(0.6);
             assertThat(full.getNoStabilisation()).isTrue();
+            assertThat(full.getResting()).isTrue();
             assertThat(full.getCellLengthPx()).isEqualTo(8);
             // Bits 0 and 9 of 35, most significant bit first.
             assertThat(full.getRegion().getMask().toByteArray()).containsExactly(0x80, 0x40, 0, 0, 0);
@@ -117,8 +119,8 @@ class DetectionClientTest {
             FilmHeader plain = server.headers.get(1);
             assertThat(plain.hasThresholds() || plain.hasMaxSizePx() || plain.hasNmsIou())
                     .isFalse();
-            assertThat(plain.hasCellLengthPx() || plain.hasRegion() || plain.getNoStabilisation())
-                    .isFalse();
+            assertThat(plain.hasCellLengthPx() || plain.hasRegion()).isFalse();
+            assertThat(plain.getNoStabilisation() || plain.getResting()).isFalse();
         }
     }
 

@@ -42,7 +42,7 @@ class TrackRequestTest {
     @Test
     void everyOptionReachesItsSetting() {
         TrackRequest request = of("output=out preset=water criterion=[Maximum F1] model=mine model_version=2"
-                + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false overlay=false frames=z channel=2"
+                + " pixel_size=0.25 frame_interval=0.0167 cell_length=8.5 stabilise=false resting=true overlay=false frames=z channel=2"
                 + " first_frame=3 last_frame=40 threshold_low=0.1 threshold_medium=0.2 threshold_high=0.3 max_size=33"
                 + " nms_iou=0.6 min_length_sure=20 min_score=0.25 max_age=24 min_hits=4 iou_gate=0.07 association=overlap interpolation=authors"
                 + " second_look=false python=/p/python server=host:1");
@@ -55,6 +55,7 @@ class TrackRequestTest {
         assertThat(request.settings().detection().maxSizePx()).isEqualTo(33);
         assertThat(request.settings().detection().nmsIou()).isEqualTo(0.6);
         assertThat(request.settings().detection().stabilise()).isFalse();
+        assertThat(request.settings().detection().resting()).isTrue();
         assertThat(request.settings().detection().cellLengthPx()).isEqualTo(8.5);
         assertThat(request.settings().tracking())
                 .isEqualTo(new SortSettings(

@@ -34,7 +34,7 @@ class TrackingRunTest {
 
     private static TrackingSettings detecting(Criterion criterion, Thresholds thresholds) {
         return of(
-                new DetectionSettings("", "", criterion, thresholds, null, null, true, null, null),
+                new DetectionSettings("", "", criterion, thresholds, null, null, true, false, null, null),
                 SortSettings.DEFAULTS);
     }
 

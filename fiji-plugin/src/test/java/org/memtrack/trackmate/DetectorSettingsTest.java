@@ -25,6 +25,7 @@ class DetectorSettingsTest {
         map.put("MAXIMUM_SIZE_PX", 40.0);
         map.put("NMS_IOU", 0.6);
         map.put("STABILISE", false);
+        map.put("RESTING", true);
         return map;
     }
 
@@ -46,6 +47,7 @@ class DetectorSettingsTest {
                         40.0,
                         0.6,
                         false,
+                        true,
                         9.5,
                         null));
         assertThat(DetectorSettings.channel(others())).isEqualTo(1);
