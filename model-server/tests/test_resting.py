@@ -63,7 +63,7 @@ def test_they_are_found_where_asked_for_and_beads_and_specks_are_not(model: Mode
     assert max(seen(found, place) for place in BEADS + SPECKS) < 0.2  # swimmers pass
     assert max(seen(usual, place) for place in RESTING) < 0.2
     assert len(said) == 1
-    assert said[0].startswith("3 spots that never move are as dark or as bright as the bacteria that move, ")
+    assert said[0].startswith("3 spot(s) that never move are as dark or as bright as the bacteria that move, ")
     assert not nothing
 
 
@@ -71,7 +71,7 @@ def test_a_film_at_another_scale_shows_the_same(model: Model) -> None:
     film = water(swimmers=10)
     larger = ScaledFilm(film, 2.5)
     found, said = run(ArrayFilm(np.stack([larger.frame(i) for i in range(40)])), model, resting=True, cell_length_px=20)
-    assert said[0].startswith("3 spots ")
+    assert said[0].startswith("3 spot(s) ")
     assert min(seen(found, (x * 2.5 + 0.75, y * 2.5 + 0.75)) for x, y in RESTING) > 0.9
 
 

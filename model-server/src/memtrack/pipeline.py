@@ -186,9 +186,7 @@ def _free_resting(
     if looks is None:
         return "No resting bacteria were looked for: too few move that could tell how a bacterium of this film looks."
     count = scene.free_resting(looks)
-    return (
-        f"{count} spots that never move are as dark or as bright as the bacteria that move, and may be found with them."
-    )
+    return f"{count} spot(s) that never move are as dark or as bright as the bacteria that move, and may be found, too."
 
 
 @dataclass(frozen=True, slots=True)
