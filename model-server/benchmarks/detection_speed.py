@@ -23,10 +23,11 @@ import numpy as np
 from memtrack.detector import padded
 from memtrack.models import load_model
 from memtrack.motion import FilmFeatures
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.pipeline import detect_film
 from memtrack.pruning import faint, prune
 from memtrack.refinement import refined
 from memtrack.scene import Scene
+from memtrack.settings import DetectionSettings
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.stabilisation import measure_motion

@@ -12,7 +12,7 @@ from memtrack.config import Limits
 from memtrack.errors import FilmError, MemtrackError, ResourceLimitError, SettingsError
 from memtrack.film import Calibration
 from memtrack.headers import check_scaled, read_header
-from memtrack.pipeline import DetectionSettings
+from memtrack.settings import DetectionSettings
 from memtrack.spool import FilmGeometry
 from memtrack.v1 import detection_pb2 as pb
 

@@ -11,9 +11,11 @@ from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import Model, load_model
-from memtrack.pipeline import DetectionSettings, detect_film, model_scale
+from memtrack.pipeline import detect_film
 from memtrack.progress import Stage
 from memtrack.resampling import ScaledFilm
+from memtrack.scale import model_scale
+from memtrack.settings import DetectionSettings
 from memtrack.simulation.film import SimulatedFilm, simulate
 from memtrack.simulation.optics import Look
 from memtrack.simulation.recipe import Recipe

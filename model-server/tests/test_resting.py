@@ -11,10 +11,11 @@ from memtrack.background import Background, temporal_background
 from memtrack.detections import Detections, FrameDetections
 from memtrack.film import ArrayFilm
 from memtrack.models import Model, load_model
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.pipeline import detect_film
 from memtrack.resampling import ScaledFilm
 from memtrack.resting import FEWEST, Looks, without_resting
 from memtrack.scene import Scene
+from memtrack.settings import DetectionSettings
 from memtrack.simulation.film import simulate
 from memtrack.simulation.optics import Look, draw
 from memtrack.simulation.recipe import Recipe

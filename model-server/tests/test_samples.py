@@ -10,7 +10,7 @@ import pytest
 import tifffile
 
 import memtrack
-from memtrack import pipeline
+from memtrack import nets
 from memtrack.channels import Channel
 from memtrack.defects import without_defects
 from memtrack.detector import padded
@@ -18,7 +18,8 @@ from memtrack.errors import SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
 from memtrack.motion import MOTION
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.pipeline import detect_film
+from memtrack.settings import DetectionSettings
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable
@@ -107,7 +108,7 @@ def test_an_annotated_film_has_the_features_that_detection_sees(
         shown.append(np.stack(channels))
         return padded(channels)
 
-    monkeypatch.setattr(pipeline, "padded", listening)
+    monkeypatch.setattr(nets, "padded", listening)
     film = ArrayFilm(frames, Calibration(0.2475, 1 / 60))
     list(detect_film(film, model, DetectionSettings(threads=1), lambda stage, done, total: None))
     np.testing.assert_array_equal(samples.features, np.stack(shown))

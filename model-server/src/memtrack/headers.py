@@ -12,7 +12,7 @@ from jaxtyping import Bool
 from memtrack.config import PROTOCOL, Limits
 from memtrack.errors import FilmError, ResourceLimitError, SettingsError
 from memtrack.film import Calibration
-from memtrack.pipeline import DetectionSettings
+from memtrack.settings import DetectionSettings
 from memtrack.spool import FilmGeometry, megabytes
 from memtrack.v1 import detection_pb2 as pb
 

@@ -9,8 +9,10 @@ from memtrack.detections import Detections, FilterCounts, FrameDetections, Level
 from memtrack.headers import FilmRequest
 from memtrack.libraries import library_versions
 from memtrack.models import Model, ModelCard
-from memtrack.pipeline import DetectionSettings, caveats, model_scale
+from memtrack.pipeline import caveats
 from memtrack.progress import Stage, Standing
+from memtrack.scale import model_scale
+from memtrack.settings import DetectionSettings
 from memtrack.spool import SpooledFilm
 from memtrack.v1 import detection_pb2 as pb
 from memtrack.v1 import server_pb2

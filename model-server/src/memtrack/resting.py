@@ -20,10 +20,8 @@ from memtrack.channels import Image
 from memtrack.detections import Detections
 from memtrack.spots import Spots
 
-SIGHTS = 5
-"""Frames in which bacteria that move are measured."""
 FEWEST = 10
-"""Fewer boxes in these, of bacteria as dark or as bright as each other, tell of no look."""
+"""Fewer boxes, of bacteria as dark or as bright as each other, tell of no look."""
 USUAL = (0.05, 0.95)
 """Quantiles between which their heights are usual."""
 MARGIN = 1.2

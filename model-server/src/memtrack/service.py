@@ -20,9 +20,10 @@ from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, ResourceLimitError, ShutdownError
 from memtrack.headers import check_scaled, read_header
 from memtrack.models import Model, load_model
-from memtrack.pipeline import detect_film, model_scale
+from memtrack.pipeline import detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts
 from memtrack.receiving import FrameReceiver
+from memtrack.scale import model_scale
 from memtrack.spool import SpooledFilm, SpoolFolder
 from memtrack.status import status_of
 from memtrack.turns import Turns

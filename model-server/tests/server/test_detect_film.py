@@ -19,7 +19,8 @@ import pytest
 from memtrack.detections import FilterCounts
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import load_model
-from memtrack.pipeline import DetectionSettings, detect_film
+from memtrack.pipeline import detect_film
+from memtrack.settings import DetectionSettings
 from memtrack.simulation.film import simulate
 from memtrack.simulation.optics import Look
 from memtrack.simulation.recipe import Recipe

@@ -21,8 +21,9 @@ from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.libraries import engine_threads, library_versions
 from memtrack.models import CRITERIA, ENGINES, Model, load_model
-from memtrack.pipeline import DetectionSettings, caveats, detect_film
+from memtrack.pipeline import caveats, detect_film
 from memtrack.progress import ProgressClock, Stage, StageCosts, Standing
+from memtrack.settings import DetectionSettings
 from memtrack.video import open_film
 from memtrack.video.source import decode, grey
 

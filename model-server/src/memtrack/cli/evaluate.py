@@ -19,8 +19,8 @@ from memtrack.evaluation.report import Report, as_json, as_text
 from memtrack.evaluation.stages import curve_sets
 from memtrack.files import write_text
 from memtrack.film import Calibration
-from memtrack.pipeline import DetectionSettings
 from memtrack.pruning import PrunerSettings
+from memtrack.settings import DetectionSettings
 from memtrack.video.opening import open_film
 
 

@@ -17,8 +17,9 @@ from memtrack.errors import SettingsError
 from memtrack.film import Calibration
 from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.motion import FeatureSpec
-from memtrack.pipeline import mended, scale_to
+from memtrack.pipeline import mended
 from memtrack.resampling import ScaledFilm, factors_of
+from memtrack.scale import scale_to
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A model's nets at work: from the features of a frame to the candidates in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from memtrack.channels import Channel
+from memtrack.contrast import with_contrasts
+from memtrack.detections import Detections
+from memtrack.detector import Engine, padded
+from memtrack.models import Model
+from memtrack.pruning import PrunerSettings
+from memtrack.refinement import Refiner, refined
+from memtrack.settings import DetectionSettings
+
+DEVIATION = "deviation"
+"""Channel of the features that tells contrasts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Nets:
+    """A model's nets, ready to run, and what is dropped of their candidates, in pixels of the film."""
+
+    model: Model
+    engine: Engine
+    refiner: Refiner | None
+    pruner: PrunerSettings
+
+    @classmethod
+    def of(cls, model: Model, settings: DetectionSettings, scale: float) -> Nets:
+        """See `Model.engine` for what it raises."""
+        kind, threads = settings.engine, settings.threads
+        pruner = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale)
+        return cls(model, model.engine(kind, threads=threads), model.refiner(kind, threads=threads), pruner)
+
+    def candidates(self, channels: list[Channel]) -> Detections:
+        """Of one frame; with contrasts where the model's features hold the signed deviation."""
+        decoder, names = self.model.card.decoder, self.model.card.features.channels
+        (height, width), together = channels[0].shape, padded(channels)
+        found = decoder.decode(self.engine.run(together), height, width)
+        if self.refiner is not None:
+            found = refined(found, together[:, :height, :width], self.refiner)
+        return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
