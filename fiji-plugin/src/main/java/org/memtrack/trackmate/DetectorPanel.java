@@ -35,7 +35,7 @@ final class DetectorPanel extends ConfigurationPanel {
     private final JSpinner maximumSize = Form.number(0, 0, 10_000, 1);
     private final JSpinner nmsIou = Form.number(0, 0, 1, 0.05);
     private final JCheckBox stabilise = new JCheckBox("Undo drift of the stage", true);
-    private final JCheckBox resting = new JCheckBox("Find resting cells, too");
+    private final JCheckBox resting = new JCheckBox("Resting cells, too");
     private final JButton previewButton = new JButton("Preview");
     private final JLabel previewState = new JLabel();
     private final transient DetectorPreview preview;
@@ -90,12 +90,11 @@ final class DetectorPanel extends ConfigurationPanel {
                 "Measure and undo the drift of the stage before the background is taken; spots are reported in the"
                         + " film as you see it.",
                 TEXT_WIDTH));
-        form.note(stabilise);
         resting.setToolTipText(Form.wrapped(
                 "Find cells that never move, too: what stays in its place and is as dark or as bright as the cells that"
                         + " move, some debris with it; where the medium is clear.",
                 TEXT_WIDTH));
-        form.note(resting);
+        form.beside(stabilise, resting);
         form.row(
                 "",
                 previewButton,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.trackmate;
 
+import java.awt.BorderLayout;
 import java.awt.Font;
 import java.awt.GridBagConstraints;
 import java.awt.GridBagLayout;
@@ -53,6 +54,16 @@ final class Form {
         wide.setFont(plain(wide.getFont()));
         panel.add(wide, at(0, 2, 1));
         row++;
+    }
+
+    /** Two widgets side by side, together as wide as the form. */
+    void beside(JComponent first, JComponent second) {
+        JPanel both = new JPanel(new BorderLayout());
+        both.add(first, BorderLayout.WEST);
+        both.add(second, BorderLayout.CENTER);
+        first.setFont(plain(first.getFont()));
+        second.setFont(plain(second.getFont()));
+        note(both);
     }
 
     /** A sentence as wide as the form. */
