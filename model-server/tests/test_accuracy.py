@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tifffile
-from accuracy.films import SIMULATED, Made, Simulated
+from accuracy.films import FIRST_SEED, SIMULATED, Made, Simulated
 from accuracy.peers import NAMES, spot_detectors
 from accuracy.scores import OURS, Examined, score, tables
 
@@ -47,6 +47,12 @@ def test_a_film_is_the_same_every_time_and_lies_on_the_disk_as_it_is_examined(tm
         assert (tifffile.imread(film.path) == TINY.simulate().film.frames).all()
         assert film.least_lengths == (10, 5)
         assert (film.preset, film.film.width, film.film.frame_count) == ("collagen", 120, 20)
+
+
+def test_films_drawn_anew_are_others_and_touch_no_seed_of_the_first() -> None:
+    film, anew = (replace(SIMULATED[0], size=(64, 48), cells=None, first_seed=seed) for seed in (FIRST_SEED, 7_000_000))
+    assert set(itertools.islice(film.seeds(), 50)).isdisjoint(itertools.islice(anew.seeds(), 50))
+    assert (film.simulate().film.frame(0) != anew.simulate().film.frame(0)).any()
 
 
 def test_scores_of_tracks_beside_the_truth() -> None:

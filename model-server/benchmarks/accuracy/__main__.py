@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures how well the whole method tracks films that no training and no tuning has seen.
 
-    python3 build.py accuracy [--data FOLDER] [--peers] [--trackmate CLASSPATH] [--films NAME ...]
+    python3 build.py accuracy [--data FOLDER] [--peers] [--trackmate CLASSPATH] [--films NAME ...] [--first-seed N]
 
 Every film goes through headless ImageJ, the plug-in's jar, a real server, SORT and the CSV, with the default settings
 and the preset of its medium. Prints the tables of docs/comparison.md, and keeps all numbers in docs/comparison.json,
@@ -14,7 +14,7 @@ import argparse
 import hashlib
 import json
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +26,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "model-server" / "benchmarks")]
 import build  # noqa: E402
 
 from accuracy import peers  # noqa: E402
-from accuracy.films import REAL, SIMULATED, Made, Real, Simulated  # noqa: E402
+from accuracy.films import FIRST_SEED, REAL, SIMULATED, Made, Real, Simulated  # noqa: E402
 from accuracy.scores import OURS, Examined, Scores, score, tables  # noqa: E402
 from memtrack.files import write_text  # noqa: E402
 from memtrack.tracks_io import read_tracks  # noqa: E402
@@ -42,10 +42,24 @@ def main() -> int:
     parser.add_argument("--trackmate", metavar="CLASSPATH", help="TrackMate 8 too, tuned likewise; its Java class path")
     parser.add_argument("--skip-ours", action="store_true", help="run the others alone")
     parser.add_argument("--films", nargs="+", metavar="NAME", help="only these (default: all)")
+    parser.add_argument(
+        "--first-seed",
+        type=int,
+        default=FIRST_SEED,
+        metavar="N",
+        help="of the simulated films (default: %(default)s)",
+    )
     parser.add_argument("--output", type=Path, default=ROOT / "out" / "accuracy", help="default: out/accuracy")
-    parser.add_argument("--results", type=Path, default=RESULTS, help="default: model-server/docs/comparison.json")
+    parser.add_argument(
+        "--results",
+        type=Path,
+        help="default: model-server/docs/comparison.json, or of films drawn anew comparison.json in the output folder",
+    )
     arguments = parser.parse_args()
-    chosen: list[Simulated | Real] = [*SIMULATED, *(REAL if arguments.data else ())]
+    anew = arguments.first_seed != FIRST_SEED
+    arguments.results = arguments.results or (arguments.output / RESULTS.name if anew else RESULTS)
+    simulated = [replace(film, first_seed=arguments.first_seed) for film in SIMULATED]
+    chosen: list[Simulated | Real] = [*simulated, *(REAL if arguments.data else ())]
     if unknown := set(arguments.films or ()) - {film.name for film in chosen}:
         parser.error(f"there is no film {min(unknown)}; choose from {', '.join(film.name for film in chosen)}")
     arguments.output.mkdir(parents=True, exist_ok=True)

@@ -57,7 +57,7 @@ class Made:
 
 @dataclass(frozen=True, slots=True)
 class Simulated:
-    """A film to simulate: seeds from FIRST_SEED + `number` on; `cells` redraws until about so many are there.
+    """A film to simulate: seeds from `first_seed` + `number` on; `cells` redraws until about so many are there.
 
     changes: of the recipe, after it was drawn.
     """
@@ -69,10 +69,11 @@ class Simulated:
     changes: dict[str, Any] = field(default_factory=dict)
     size: tuple[int, int] = (660, 492)
     frames: int = 100
+    first_seed: int = FIRST_SEED
 
     def seeds(self) -> Iterator[int]:
         """Those tried for the recipe, in order; the first one also draws everything else."""
-        return itertools.count(FIRST_SEED + self.number, 1000)
+        return itertools.count(self.first_seed + self.number, 1000)
 
     def simulate(self) -> SimulatedFilm:
         """The film and its truth, the same every time."""
@@ -82,7 +83,7 @@ class Simulated:
                 self.family, np.random.default_rng(seed), width=width, height=height, frames=self.frames
             )
             if self.cells is None or abs(len(recipe.gaits) - self.cells) < 0.25 * self.cells:
-                return simulate(replace(recipe, **self.changes), FIRST_SEED + self.number)
+                return simulate(replace(recipe, **self.changes), self.first_seed + self.number)
         raise AssertionError("seeds never end")
 
     @contextmanager
