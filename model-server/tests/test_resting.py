@@ -29,12 +29,12 @@ BEADS = ((50, 120), (210, 170))
 SPECKS = ((130, 60), (30, 200), (180, 120))
 
 
-def water(swimmers: int) -> ArrayFilm:
+def water(swimmers: int, resting: tuple[tuple[int, int], ...] = RESTING) -> ArrayFilm:
     """Dark bacteria that swim, others that rest, beads three times as dark, and bright specks."""
     made = simulate(replace(WATER, gaits=(Gait.SWIMMING,) * swimmers, looks=(CELL,) * swimmers), 3)
     lying = np.zeros((WATER.height, WATER.width), np.float32)
     bead = replace(CELL, length=7.0, width=7.0, contrast=-150.0)
-    for places, look in ((RESTING, CELL), (BEADS, bead), (SPECKS, replace(CELL, contrast=50.0))):
+    for places, look in ((resting, CELL), (BEADS, bead), (SPECKS, replace(CELL, contrast=50.0))):
         for k, (x, y) in enumerate(places):
             draw(lying, look, x, y, 0.8 * k, 0.0)
     return ArrayFilm(np.clip(made.film.frames + lying, 0, 255).astype(np.uint8))
@@ -74,6 +74,14 @@ def test_a_film_at_another_scale_shows_the_same(model: Model) -> None:
     found, said = run(ArrayFilm(np.stack([larger.frame(i) for i in range(40)])), model, resting=True, cell_length_px=20)
     assert said[0].startswith("3 spot(s) ")
     assert min(seen(found, (x * 2.5 + 0.75, y * 2.5 + 0.75)) for x, y in RESTING) > 0.9
+
+
+def test_where_only_beads_and_specks_lie_none_is_found(model: Model) -> None:
+    found, said = run(water(swimmers=10, resting=()), model, resting=True)
+    assert max(seen(found, place) for place in RESTING + BEADS + SPECKS) < 0.2
+    assert said == [
+        "No resting bacteria were found: nothing that never moves is as dark or as bright as those that move."
+    ]
 
 
 def test_where_nothing_moves_nothing_tells_what_a_bacterium_looks_like(model: Model) -> None:

@@ -40,6 +40,8 @@ def free_resting(
     if looks is None:
         return "No resting bacteria were looked for: too few move that could tell how a bacterium of this film looks."
     count = scene.free_resting(looks)
+    if not count:
+        return "No resting bacteria were found: nothing that never moves is as dark or as bright as those that move."
     return f"{count} spot(s) that never move are as dark or as bright as the bacteria that move, and may be found, too."
 
 
