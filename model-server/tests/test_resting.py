@@ -120,6 +120,10 @@ def test_too_few_of_a_sign_tell_nothing_of_it() -> None:
     assert dark_only is not None
     assert np.isnan(dark_only.heights[1]).all()
     assert dark_only.fit(BLURRED * np.array([-10.0, 10.0, 20.0, -30.0])).tolist() == [True, False, False, False]
+    hardly_any_bright = [(spots(*[-10.0] * 6), boxes(6))] * 20 + [(spots(*[-10.0] * 5, 20.0), boxes(6))] * FEWEST
+    looks = Looks.of(hardly_any_bright)
+    assert looks is not None
+    assert np.isnan(looks.heights[1]).all()
     assert Looks.of([(spots(-10.0), boxes(1))] * (FEWEST - 1)) is None
     assert Looks.of([]) is None
 

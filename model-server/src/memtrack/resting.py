@@ -20,8 +20,9 @@ from memtrack.channels import Image
 from memtrack.detections import Detections
 from memtrack.spots import Spots
 
-FEWEST = 10
-"""Fewer boxes, of bacteria as dark or as bright as each other, tell of no look."""
+FEWEST, LEAST_SHARE = 10, 0.1
+"""Fewer boxes, in number or of all, that are dark, or that are bright, tell of no look: a dark bacterium's bright halo
+now and then stands out most."""
 USUAL = (0.05, 0.95)
 """Quantiles between which their heights are usual."""
 MARGIN = 1.2
@@ -48,7 +49,7 @@ class Looks:
         heights = np.concatenate(each) if each else np.empty(0)
         usual = np.full((2, 2), np.nan)
         for row, of_sign in zip(usual, (heights[heights < 0], heights[heights > 0]), strict=True):
-            if len(of_sign) >= FEWEST:
+            if len(of_sign) >= max(FEWEST, LEAST_SHARE * len(heights)):
                 row[:] = np.quantile(of_sign, USUAL)
         if np.isnan(usual).all():
             return None
