@@ -67,7 +67,9 @@ def test_numpy_is_imported_only_after_its_threads_were_limited() -> None:
 
 def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -> None:
     out = tmp_path / "détections.csv"
-    done = memtrack("detect", film, "--out", out, "--thresholds", "0,0,0", "--nms-iou", "1", "--max-size-px", "1000")
+    done = memtrack(
+        "detect", film, "--out", out, "--thresholds", "0,0,0", "--nms-iou", "1", "--max-size-px", "1000", "--resting"
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines() == [str(out), str(tmp_path / "détections.provenance.json")]
     told = json.loads((tmp_path / "détections.provenance.json").read_text(encoding="utf-8"))
@@ -77,6 +79,7 @@ def test_detect_writes_a_table_with_its_provenance(film: Path, tmp_path: Path) -
     assert (told["film"]["pixel_size_um"], told["film"]["frame_interval_seconds"]) == (0.25, 0.1)
     assert told["model"]["name"] == "default"
     assert told["thresholds"] == {"low": 0, "medium": 0, "high": 0}
+    assert told["settings"]["resting"] is True
     kept = sum(len(frame.detections) for frame in read_detections(out))
     assert kept == told["counts"]["kept"] == told["counts"]["candidates"]
     assert f"{kept} detections kept" in done.stderr

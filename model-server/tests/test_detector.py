@@ -70,7 +70,7 @@ def test_nothing_is_found_in_the_padding() -> None:
     maps = silent()
     maps[0] = 5
     found = Decoder().decode(maps, 10, 21)
-    centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    centres = found.centres
     assert len(found) == 15  # places 0 to 4 by 0 to 2 have centres in the frame
     assert centres.max(axis=0)[0] < 21
     assert centres.max(axis=0)[1] < 10
@@ -103,7 +103,7 @@ def test_a_large_frame_keeps_the_candidates_of_all_its_bacteria() -> None:
         maps[5, rows + down, columns + right] = 0.5 - down
     found = Decoder().decode(maps, 2048, 2048)
     assert len(found) == 4400
-    centres = (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    centres = found.centres
     expected = np.stack([columns, rows], axis=1) * 4 + 3.5
     np.testing.assert_allclose(np.unique(centres, axis=0), np.unique(expected, axis=0), atol=1e-3)
     kept, _ = prune(found, PrunerSettings((0.5, 0.5, 0.5)))

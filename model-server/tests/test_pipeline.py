@@ -9,7 +9,7 @@ import pytest
 
 from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, SettingsError
-from memtrack.film import ArrayFilm, Calibration
+from memtrack.film import ArrayFilm
 from memtrack.models import Model, load_model
 from memtrack.pipeline import detect_film
 from memtrack.progress import Stage
@@ -57,7 +57,7 @@ def judge(made: SimulatedFilm, found: list[FrameDetections], scale: float = 1.0)
         rows = np.flatnonzero(truth.frames == frame.frame)
         places = np.stack([truth.x[rows], truth.y[rows]], axis=1)
         real = ~truth.ignored[rows]
-        centres = ((frame.detections.boxes[:, :2] + frame.detections.boxes[:, 2:]) / 2 + 0.5) * scale - 0.5
+        centres = (frame.detections.centres + 0.5) * scale - 0.5
         distance = np.linalg.norm(places[:, None] - centres[None], axis=2) if len(rows) else np.zeros((0, len(centres)))
         taken = np.zeros(len(centres), bool)
         for k in np.flatnonzero(real):
@@ -117,7 +117,7 @@ def test_contrasts_tell_bright_bacteria_from_dark_ones(model: Model) -> None:
     made = simulate(replace(GEL, drift_per_frame=(0.12, -0.08)), 3)
     signs = []
     for frame in run(made.film, model):
-        centres = (frame.detections.boxes[:, :2] + frame.detections.boxes[:, 2:]) / 2
+        centres = frame.detections.centres
         assert frame.detections.contrasts is not None
         for row in np.flatnonzero((made.truth.frames == frame.frame) & ~made.truth.ignored):
             distances = np.hypot(*(centres - (made.truth.x[row], made.truth.y[row])).T)
@@ -164,41 +164,6 @@ def test_a_film_at_twice_the_scale_is_brought_to_the_models(gel: SimulatedFilm, 
     assert precision > 0.85
     assert recall > 0.75
     assert error < 1.5
-
-
-def test_a_stated_cell_length_takes_the_place_of_a_calibration(model: Model) -> None:
-    film = ArrayFilm(np.zeros((1, 8, 8), np.uint8), Calibration(0.01, None))
-    low, high = model.card.cell_length_px
-    assert model_scale(film, model, DetectionSettings(cell_length_px=(low + high) / 2)) == 1
-    assert model_scale(film, model, DetectionSettings(cell_length_px=2 * high)) == pytest.approx(0.5)
-    assert model_scale(film, model, DetectionSettings()) == pytest.approx(high / 200)
-    assert model_scale(replace(film, calibration=Calibration()), model, DetectionSettings()) == 1
-
-
-@pytest.mark.parametrize(
-    ("pixel_size_um", "sentence"),
-    [
-        (25400.0, r"a pixel size of 25400 um means scaling the frames by 4\.83e\+04, but 0\.05 to 8 is possible"),
-        (10.0, "a pixel size of 10 um means scaling the frames by 19, .*; give the true pixel size, or the length"),
-        (0.001, r"a pixel size of 0\.001 um means scaling the frames by 0\.006"),
-        (1e-320, "means scaling the frames by 0,"),
-    ],
-)
-def test_a_scale_that_makes_no_sense_is_refused_with_what_led_to_it(
-    pixel_size_um: float, sentence: str, model: Model
-) -> None:
-    film = ArrayFilm(np.zeros((1, 8, 8), np.uint8), Calibration(pixel_size_um))
-    with pytest.raises(SettingsError, match=sentence):
-        model_scale(film, model, DetectionSettings())
-
-
-def test_every_cell_length_that_can_be_stated_has_a_scale(model: Model) -> None:
-    film = ArrayFilm(np.zeros((1, 8, 8), np.uint8), Calibration(25400))
-    for length in (1.0, 200.0):
-        assert 0.05 < model_scale(film, model, DetectionSettings(cell_length_px=length)) < 8
-    large = replace(model, card=replace(model.card, cell_length_px=(30.0, 60.0)))
-    with pytest.raises(SettingsError, match="a cell length of 1 pixels means scaling the frames by 30"):
-        model_scale(film, large, DetectionSettings(cell_length_px=1.0))
 
 
 def test_a_region_keeps_what_is_in_it(gel: SimulatedFilm, model: Model) -> None:
@@ -297,23 +262,6 @@ def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, m
 
     with pytest.raises(CancelledError):
         list(detect_film(gel.film, model, DetectionSettings(), report))
-
-
-@pytest.mark.parametrize(
-    ("settings", "message"),
-    [
-        ({"criterion": "best"}, "criterion 'best' is unknown"),
-        ({"thresholds": (0.5, 0.5, 1.5)}, "give 3 numbers from 0 to 1"),
-        ({"max_size_px": 0.0}, "max_size_px is 0.0"),
-        ({"nms_iou": -0.1}, "nms_iou is -0.1"),
-        ({"cell_length_px": 0.5}, "cell_length_px is 0.5"),
-        ({"threads": 0}, "threads is 0"),
-        ({"engine": "warp"}, "engine 'warp' is unknown: use one of auto, openvino, torch"),
-    ],
-)
-def test_settings_out_of_range_are_refused_with_their_value(settings: dict[str, object], message: str) -> None:
-    with pytest.raises(SettingsError, match=message):
-        DetectionSettings(**settings)  # type: ignore[arg-type]
 
 
 def test_a_region_of_another_size_is_refused(gel: SimulatedFilm, model: Model) -> None:

@@ -34,7 +34,7 @@ def boxes_at(*centres: tuple[float, float], scores: Sequence[float] = ()) -> Det
 
 
 def centres_of(found: Detections) -> np.ndarray:
-    return (found.boxes[:, :2] + found.boxes[:, 2:]) / 2
+    return found.centres
 
 
 def test_a_crop_has_the_pixel_next_to_the_centre_in_its_middle_and_is_neutral_outside_the_frame() -> None:

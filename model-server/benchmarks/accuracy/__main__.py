@@ -47,17 +47,19 @@ def main() -> int:
         type=int,
         default=FIRST_SEED,
         metavar="N",
-        help="of the simulated films (default: %(default)s)",
+        help="draws the simulated films from other seeds (default: %(default)s)",
     )
     parser.add_argument("--output", type=Path, default=ROOT / "out" / "accuracy", help="default: out/accuracy")
     parser.add_argument(
         "--results",
         type=Path,
-        help="default: model-server/docs/comparison.json, or of films drawn anew comparison.json in the output folder",
+        help="default: model-server/docs/comparison.json, or of films drawn anew a file in the output folder",
     )
     arguments = parser.parse_args()
-    anew = arguments.first_seed != FIRST_SEED
-    arguments.results = arguments.results or (arguments.output / RESULTS.name if anew else RESULTS)
+    if arguments.first_seed < 0:
+        parser.error(f"--first-seed is {arguments.first_seed}; give a whole number from 0 on")
+    anew = arguments.output / f"comparison-{arguments.first_seed}.json"
+    arguments.results = arguments.results or (RESULTS if arguments.first_seed == FIRST_SEED else anew)
     simulated = [replace(film, first_seed=arguments.first_seed) for film in SIMULATED]
     chosen: list[Simulated | Real] = [*simulated, *(REAL if arguments.data else ())]
     if unknown := set(arguments.films or ()) - {film.name for film in chosen}:

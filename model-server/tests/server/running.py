@@ -136,6 +136,14 @@ def answer(responses: Iterable[pb.DetectFilmResponse]) -> Answer:
     return found
 
 
+def check_order(found: Answer, frames: int) -> None:
+    """One acceptance, then every frame once and in order, then one summary."""
+    assert found.order[0] == "accepted"
+    assert found.order[-1] == "summary"
+    assert (len(found.accepted), len(found.summary)) == (1, 1)
+    assert [f.frame for f in found.frame] == list(range(frames))
+
+
 def noise(frames: int, height: int, width: int, dtype: str = "uint8", seed: int = 0) -> np.ndarray:
     """A film of camera noise with a few dark bars that move; values fit into 8 bits."""
     world = np.random.default_rng(seed)
