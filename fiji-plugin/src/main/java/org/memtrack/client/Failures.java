@@ -3,6 +3,7 @@ package org.memtrack.client;
 
 import io.grpc.Status;
 import java.util.Locale;
+import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
 
 /** Turns the status of a failed call into one sentence for the user. */
@@ -21,7 +22,8 @@ final class Failures {
                 "The server did not accept our token: for a server given"
                         + " by its address, set MEMTRACK_TOKEN to the token it was started with.";
             case UNAVAILABLE ->
-                "The server cannot be reached, or was ended while it worked: run again, and if"
+                "The server cannot be reached, or was ended while it worked%s: run again, and if"
+                                .formatted(innermost(status.getCause()))
                         + " that fails too, use \"MEMTrack Check Installation\".";
             case DEADLINE_EXCEEDED ->
                 "The server did not answer in time: the computer may be too busy; run"
@@ -34,6 +36,18 @@ final class Failures {
                         + " \"MEMTrack Check Installation\".";
         };
         return new DetectorException(sentence, status.asRuntimeException());
+    }
+
+    /** What went wrong first, in brackets, for example that a certificate is not trusted; empty when nothing says it. */
+    private static String innermost(@Nullable Throwable cause) {
+        String said = "";
+        for (Throwable error = cause; error != null; error = error.getCause()) {
+            String message = error.getMessage();
+            if (message != null && !message.isBlank()) {
+                said = " (" + message.strip().lines().findFirst().orElseThrow().replaceAll("[.\\s]+$", "") + ")";
+            }
+        }
+        return said;
     }
 
     private static String asSentence(String clause) {

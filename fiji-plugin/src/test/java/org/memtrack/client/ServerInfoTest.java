@@ -6,19 +6,29 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 import com.sun.net.httpserver.HttpServer;
 import io.grpc.InsecureServerCredentials;
+import io.grpc.ManagedChannel;
 import io.grpc.Metadata;
 import io.grpc.Server;
 import io.grpc.ServerCall;
 import io.grpc.ServerCallHandler;
 import io.grpc.ServerInterceptor;
 import io.grpc.Status;
+import io.grpc.TlsServerCredentials;
+import io.grpc.okhttp.OkHttpChannelBuilder;
 import io.grpc.okhttp.OkHttpServerBuilder;
 import io.grpc.stub.StreamObserver;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.ServerSocket;
+import java.nio.charset.Charset;
+import java.nio.file.Path;
+import java.security.KeyStore;
+import java.time.Duration;
+import javax.net.ssl.KeyManager;
+import javax.net.ssl.KeyManagerFactory;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.v1.GetServerInfoRequest;
 import org.memtrack.v1.GetServerInfoResponse;
@@ -27,6 +37,9 @@ import org.memtrack.v1.ServerServiceGrpc;
 /** The handshake, over a real socket. */
 @Timeout(600)
 class ServerInfoTest {
+    @TempDir
+    Path folder;
+
     @Test
     void aServerOfOurProtocolIsAcceptedWithItsToken() throws Exception {
         try (Running running = new Running(1);
@@ -68,8 +81,56 @@ class ServerInfoTest {
         try (DetectionClient client = DetectionClient.connect("127.0.0.1", port, "secret")) {
             assertThatThrownBy(() -> client.info(false))
                     .isInstanceOf(DetectorException.class)
-                    .hasMessageContaining("cannot be reached");
+                    .hasMessageContaining("cannot be reached")
+                    .hasMessageContaining("(Connection refused");
         }
+    }
+
+    @Test
+    void aCertificateThatIsNotTrustedIsNamedAsTheCause() throws Exception {
+        Server server = OkHttpServerBuilder.forPort(
+                        new InetSocketAddress(InetAddress.getLoopbackAddress(), 0),
+                        TlsServerCredentials.newBuilder()
+                                .keyManager(ownCertificate())
+                                .build())
+                .build()
+                .start();
+        ManagedChannel channel =
+                OkHttpChannelBuilder.forAddress("localhost", server.getPort()).build();
+        try (DetectionClient client = new DetectionClient(channel, Duration.ofSeconds(30))) {
+            assertThatThrownBy(() -> client.info(false))
+                    .isInstanceOf(DetectorException.class)
+                    .hasMessageContaining("cannot be reached")
+                    .hasMessageContaining("(unable to find valid certification path to requested target): run again");
+        } finally {
+            server.shutdownNow();
+        }
+    }
+
+    /** A certificate for localhost that nobody but itself has signed. */
+    private KeyManager[] ownCertificate() throws Exception {
+        Path file = folder.resolve("server.p12");
+        Process keytool = new ProcessBuilder(
+                        Path.of(System.getProperty("java.home"), "bin", "keytool")
+                                .toString(),
+                        "-genkeypair",
+                        "-keyalg",
+                        "EC",
+                        "-dname",
+                        "CN=localhost",
+                        "-ext",
+                        "san=dns:localhost",
+                        "-storepass",
+                        "secret",
+                        "-keystore",
+                        file.toString())
+                .redirectErrorStream(true)
+                .start();
+        String said = new String(keytool.getInputStream().readAllBytes(), Charset.defaultCharset());
+        assertThat(keytool.waitFor()).as(said).isZero();
+        KeyManagerFactory keys = KeyManagerFactory.getInstance(KeyManagerFactory.getDefaultAlgorithm());
+        keys.init(KeyStore.getInstance(file.toFile(), "secret".toCharArray()), "secret".toCharArray());
+        return keys.getKeyManagers();
     }
 
     @Test
