@@ -4,10 +4,10 @@ package org.memtrack.server;
 import com.google.gson.Gson;
 import com.google.gson.JsonParseException;
 import java.io.EOFException;
+import java.io.File;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Path;
 import java.security.SecureRandom;
 import java.time.Duration;
 import java.util.HexFormat;
@@ -68,7 +68,7 @@ final class LocalServer {
                 "--token-from-stdin",
                 "--parent-pid",
                 Long.toString(ProcessHandle.current().pid()));
-        builder.directory(Path.of(System.getProperty("user.home", ".")).toFile());
+        builder.directory(workingFolder());
         Process process;
         try {
             process = builder.start();
@@ -136,6 +136,12 @@ final class LocalServer {
     /** Asks the process to end, and makes it end within a few seconds. */
     void end() {
         end(process);
+    }
+
+    /** The user's home, or where an account has none, as that of a service or of a container, the folder of temporary files. */
+    private static File workingFolder() {
+        File home = new File(System.getProperty("user.home", ""));
+        return home.isDirectory() ? home : new File(System.getProperty("java.io.tmpdir"));
     }
 
     private static void greet(String line, CompletableFuture<Greeting> greeting) {

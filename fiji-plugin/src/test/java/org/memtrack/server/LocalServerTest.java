@@ -61,6 +61,20 @@ class LocalServerTest {
     }
 
     @Test
+    void anAccountWhoseHomeIsNoFolderStartsAServerToo() throws Exception {
+        Interpreter serving = script(SmallWheel.SERVER);
+        String home = System.getProperty("user.home");
+        System.setProperty("user.home", folder.resolve("nonexistent").toString());
+        try {
+            LocalServer server = LocalServer.start(serving, Progress.NONE);
+            assertThat(server.alive()).isTrue();
+            server.end();
+        } finally {
+            System.setProperty("user.home", home);
+        }
+    }
+
+    @Test
     void aProgramThatDoesNotExistIsNoServer() {
         Interpreter missing = new Interpreter(List.of(folder.resolve("python").toString()), "as given", true, false);
         assertThatThrownBy(() -> LocalServer.start(missing, Progress.NONE))
