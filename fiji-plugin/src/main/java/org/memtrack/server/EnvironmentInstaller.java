@@ -20,6 +20,8 @@ import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.TimeoutException;
 import java.util.concurrent.atomic.AtomicInteger;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
@@ -27,12 +29,21 @@ import org.memtrack.detection.DetectorException;
 /**
  * Makes the Python environment of the server in the data folder: a plain venv, or on a machine without Python a copy of one
  * that a jar carries, with the wheel of the plug-in's jar in it. An
- * environment is in use only when it is complete and its server has answered; until then the older one stays.
+ * environment is in use only when it is complete and its server has answered; until then the older one is.
+ *
+ * <p>The one that was in use before stays until the next installation, since the server of another ImageJ may run in it;
+ * that the server of another ImageJ runs in a still older one is not looked for.
  */
 public final class EnvironmentInstaller {
     private static final Duration LIMIT = Duration.ofMinutes(90);
     private static final long BASE_BYTES = 2L << 30;
     private static final long TRAINING_BYTES = 10L << 30;
+
+    /** As {@link #make} names an environment. */
+    private static final Pattern NAME = Pattern.compile("env-[^-]+-\\d{8}-\\d{6}");
+
+    /** Folder of an environment that holds the wheel: made first, it tells that the environment is one of ours. */
+    private static final String PARCELS = "memtrack-wheel";
 
     private final Path dataFolder;
     private final ServerWheel wheel;
@@ -126,12 +137,13 @@ public final class EnvironmentInstaller {
         String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
         Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
         PythonEnvironment made = new PythonEnvironment(folder, wheel.version());
+        Optional<PythonEnvironment> before = PythonEnvironment.installed(dataFolder);
         boolean complete = false;
         try {
             progress.report("Making the environment", 0.02, OptionalDouble.empty(), folder.toString());
-            start.make(folder, progress.between(0.02, 0.1));
-            Path parcels = folder.resolve("memtrack-wheel");
+            Path parcels = folder.resolve(PARCELS);
             wheel.writeTo(parcels);
+            start.make(folder, progress.between(0.02, 0.1));
             ProcessBuilder pip = made.interpreter()
                     .process(
                             "-m",
@@ -156,9 +168,25 @@ public final class EnvironmentInstaller {
             }
         }
         Servers.end();
-        Folders.deleteOthers(dataFolder, "env-", folder);
+        deleteOlder(folder, before.map(PythonEnvironment::folder).orElse(folder));
         progress.report("Installed", 1, OptionalDouble.empty(), folder.toString());
         return made;
+    }
+
+    /**
+     * Deletes our environments but the new one and the one before, also what is left of an installation that was killed. The
+     * data folder may be one of the user's own, with other things in it that begin with "env-".
+     */
+    private void deleteOlder(Path made, Path before) throws IOException {
+        List<Path> older;
+        try (Stream<Path> all = Files.list(dataFolder)) {
+            older = all.filter(folder ->
+                            NAME.matcher(folder.getFileName().toString()).matches())
+                    .filter(folder -> Files.isDirectory(folder.resolve(PARCELS)))
+                    .filter(folder -> !folder.equals(made) && !folder.equals(before))
+                    .toList();
+        }
+        older.forEach(Folders::tryDelete);
     }
 
     private void step(String doing, ProcessBuilder builder, Progress part) throws IOException {

@@ -12,7 +12,7 @@ interface EnvironmentStart {
     /**
      * Makes the folder, with a Python and its pip in it.
      *
-     * @param folder does not exist yet; what is made of it on a failure is the caller's to delete
+     * @param folder holds nothing yet but the server's wheel; what is made of it on a failure is the caller's to delete
      * @throws CancellationException when progress was cancelled
      */
     void make(Path folder, Progress progress) throws IOException;

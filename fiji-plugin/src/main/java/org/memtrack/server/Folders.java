@@ -7,8 +7,6 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.SimpleFileVisitor;
 import java.nio.file.attribute.BasicFileAttributes;
-import java.util.List;
-import java.util.stream.Stream;
 
 /** Deletes folders of ours. */
 final class Folders {
@@ -32,17 +30,6 @@ final class Folders {
                 return FileVisitResult.CONTINUE;
             }
         });
-    }
-
-    /** Deletes the folders whose names begin so, but one; what another program holds open stays for the next time. */
-    static void deleteOthers(Path parent, String prefix, Path kept) throws IOException {
-        List<Path> others;
-        try (Stream<Path> all = Files.list(parent)) {
-            others = all.filter(folder -> folder.getFileName().toString().startsWith(prefix))
-                    .filter(folder -> !folder.equals(kept))
-                    .toList();
-        }
-        others.forEach(Folders::tryDelete);
     }
 
     /** Deletes a folder and all in it; what cannot be deleted stays, with a line in the log. */

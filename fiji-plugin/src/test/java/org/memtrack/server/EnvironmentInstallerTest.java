@@ -57,10 +57,26 @@ class EnvironmentInstallerTest {
         PythonEnvironment newer =
                 installer(SmallWheel.of(SmallWheel.SERVER, ">=3")).install(null, false, heard(said));
         assertThat(PythonEnvironment.installed(data)).contains(newer);
-        assertThat(environments()).containsExactly(newer.folder());
+        assertThat(environments())
+                .as("the server of another ImageJ may run in the older one")
+                .containsExactlyInAnyOrder(older.folder(), newer.folder());
         assertThat(said)
                 .contains(
                         "Looking for Python", "Making the environment", "Installing", "Trying the server", "Installed");
+    }
+
+    @Test
+    void ofTheFoldersInTheDataFolderOnlyOldEnvironmentsOfOursAreDeleted() throws Exception {
+        Path theirs = Files.createDirectories(data.resolve("env-tensorflow").resolve("memtrack-wheel"));
+        Path namedAsOurs = Files.createDirectories(
+                data.resolve("env-9.9.9-20200101-000000").resolve("bin"));
+        Path ours = data.resolve("env-0.0.9-20200101-000000");
+        SmallWheel.of(SmallWheel.SERVER, ">=3").writeTo(ours.resolve("memtrack-wheel"));
+        PythonEnvironment made = install(SmallWheel.of(SmallWheel.SERVER, ">=3"));
+        assertThat(environments())
+                .containsExactlyInAnyOrder(theirs.getParent(), namedAsOurs.getParent(), made.folder());
+        assertThat(theirs).isDirectory();
+        assertThat(namedAsOurs).isDirectory();
     }
 
     @Test
