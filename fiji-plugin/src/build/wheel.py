@@ -5,6 +5,7 @@ The wheel is built again only when a source of the server or of the contract has
 """
 
 import hashlib
+import os
 import shutil
 import subprocess
 import sys
@@ -20,7 +21,9 @@ def main(server: Path, classes: Path, work: Path) -> None:
         # Setuptools would put modules that are gone into the wheel again.
         shutil.rmtree(server / "build", ignore_errors=True)
         command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--disable-pip-version-check", "--no-deps"]
-        subprocess.run([*command, "--wheel-dir", str(work), str(server)], check=True)
+        # Of the same sources always the same wheel: the plug-in tells builds of the server apart by its SHA-256.
+        environment = {**os.environ, "SOURCE_DATE_EPOCH": "315532800"}
+        subprocess.run([*command, "--wheel-dir", str(work), str(server)], check=True, env=environment)
         stamp.write_text(digest, encoding="utf-8")
     (wheel,) = work.glob("memtrack-*.whl")
     shutil.rmtree(classes, ignore_errors=True)

@@ -48,7 +48,8 @@ public final class TrackingRun {
                             fraction -> rest.report("Tracking", fraction, OptionalDouble.empty(), ""),
                             progress::cancelled);
             TrackedFilm tracked = TrackedFilm.of(info, found.tracks(), frames);
-            List<String> warnings = new ArrayList<>(detection.warnings());
+            List<String> warnings = new ArrayList<>(connection.warnings());
+            warnings.addAll(detection.warnings());
             if (found.tracks().isEmpty()) {
                 warnings.add(noTracks(detection.summary().kept(), settings));
             }

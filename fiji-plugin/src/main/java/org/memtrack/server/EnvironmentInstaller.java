@@ -136,7 +136,7 @@ public final class EnvironmentInstaller {
         Files.deleteIfExists(log());
         String stamp = LocalDateTime.now().format(DateTimeFormatter.ofPattern("yyyyMMdd-HHmmss"));
         Path folder = dataFolder.resolve("env-" + wheel.version() + "-" + stamp);
-        PythonEnvironment made = new PythonEnvironment(folder, wheel.version());
+        PythonEnvironment made = new PythonEnvironment(folder, wheel.version(), wheel.sha256());
         Optional<PythonEnvironment> before = PythonEnvironment.installed(dataFolder);
         boolean complete = false;
         try {

@@ -4,16 +4,18 @@ package org.memtrack.server;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import org.jspecify.annotations.Nullable;
 
 /**
  * A Python to start the server with.
  *
  * @param command program and its first arguments, for example "py" and "-3"
  * @param origin why it was chosen, for the user, for example "of MEMTRACK_PYTHON"
- * @param chosen whether the user named it, so that nothing else may stand in for it
- * @param isolated whether it is an environment of ours, which the user's Python settings must not reach into
+ * @param environment the environment of ours it belongs to, which the user's Python settings must not reach into; null
+ *     when it is a Python of the user's
  */
-record Interpreter(List<String> command, String origin, boolean chosen, boolean isolated) {
+record Interpreter(
+        List<String> command, String origin, @Nullable PythonEnvironment environment) {
     /** Within which one answers a question; the stub of the Windows Store may wait for a window instead. */
     static final Duration ANSWER_LIMIT = Duration.ofSeconds(20);
 
@@ -35,7 +37,7 @@ record Interpreter(List<String> command, String origin, boolean chosen, boolean 
         builder.environment().put("PYTHONUNBUFFERED", "1");
         // A file in the working folder must not pass for a module (Python 3.11 and newer).
         builder.environment().put("PYTHONSAFEPATH", "1");
-        if (isolated) {
+        if (environment != null) {
             builder.environment().remove("PYTHONPATH");
             builder.environment().remove("PYTHONHOME");
             builder.environment().put("PYTHONNOUSERSITE", "1");

@@ -77,8 +77,7 @@ final class Interpreters {
                                 ? List.of(file.toString(), "-3")
                                 : List.of(file.toString()),
                         origin,
-                        false,
-                        false))
+                        null))
                 .toList();
     }
 
@@ -88,7 +87,7 @@ final class Interpreters {
                     "There is no Python at %s, %s: give the path of the interpreter itself, for example %s."
                             .formatted(python, origin, windows() ? "C:\\...\\python.exe" : "/.../bin/python"));
         }
-        return new Interpreter(List.of(python.toAbsolutePath().toString()), origin, true, false);
+        return new Interpreter(List.of(python.toAbsolutePath().toString()), origin, null);
     }
 
     private static Stream<Path> find(String name, List<Path> folders) {

@@ -12,6 +12,7 @@ import java.util.concurrent.ScheduledExecutorService;
 import java.util.concurrent.ScheduledFuture;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.ReentrantLock;
+import java.util.function.Supplier;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.client.DetectionClient;
 import org.memtrack.client.Progress;
@@ -21,6 +22,7 @@ import org.memtrack.detection.DetectorException;
 /** The one server of our own in an ImageJ session: started when first wanted, shared, ended when idle or at the end. */
 final class ManagedServer {
     private final Duration idleLimit;
+    private final Supplier<Optional<ServerWheel>> carried;
     private final ReentrantLock lock = new ReentrantLock();
     private final ScheduledExecutorService timer = Executors.newSingleThreadScheduledExecutor(task -> {
         Thread thread = new Thread(task, "memtrack-server-idle");
@@ -31,10 +33,16 @@ final class ManagedServer {
     private @Nullable ScheduledFuture<?> ending;
     private volatile boolean closing;
 
-    private record Running(LocalServer server, DetectionClient client, ServerInfo info, List<Object> users) {}
+    private record Running(
+            LocalServer server, DetectionClient client, ServerInfo info, List<String> warnings, List<Object> users) {}
 
-    ManagedServer(Duration idleLimit) {
+    /**
+     * @param idleLimit after which a server that nobody uses is ended
+     * @param carried the wheel in the plug-in's jar, if it has one: what an environment of ours should have been made with
+     */
+    ManagedServer(Duration idleLimit, Supplier<Optional<ServerWheel>> carried) {
         this.idleLimit = idleLimit;
+        this.carried = carried;
     }
 
     /** A connection to the running server if it is one of the candidates, or to a new one of the best that starts. */
@@ -122,15 +130,22 @@ final class ManagedServer {
                 : "No Python was found: %s, then %s".formatted(CarriedPython.advice(), command);
     }
 
-    private static Running connect(LocalServer server) {
+    private Running connect(LocalServer server) {
         DetectionClient client = server.connect();
         try {
-            return new Running(server, client, client.info(false), new ArrayList<>());
+            return new Running(server, client, client.info(false), warnings(server.interpreter()), new ArrayList<>());
         } catch (RuntimeException e) {
             client.close();
             server.end();
             throw e;
         }
+    }
+
+    private List<String> warnings(Interpreter interpreter) {
+        PythonEnvironment environment = interpreter.environment();
+        return environment == null
+                ? List.of()
+                : carried.get().flatMap(environment::warning).stream().toList();
     }
 
     private static boolean isOneOf(List<Interpreter> candidates, Interpreter interpreter) {
@@ -164,6 +179,7 @@ final class ManagedServer {
                 current.client,
                 current.info,
                 current.server.interpreter().describe(),
+                current.warnings,
                 current.server::death,
                 () -> release(current, user));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.server;
 
+import java.util.List;
 import java.util.Optional;
 import java.util.function.Supplier;
 import org.memtrack.client.DetectionClient;
@@ -16,6 +17,7 @@ public final class ServerConnection implements AutoCloseable {
     private final DetectionClient client;
     private final ServerInfo info;
     private final String origin;
+    private final List<String> warnings;
     private final Supplier<Optional<String>> death;
     private final Runnable release;
 
@@ -27,11 +29,13 @@ public final class ServerConnection implements AutoCloseable {
             DetectionClient client,
             ServerInfo info,
             String origin,
+            List<String> warnings,
             Supplier<Optional<String>> death,
             Runnable release) {
         this.client = client;
         this.info = info;
         this.origin = origin;
+        this.warnings = List.copyOf(warnings);
         this.death = death;
         this.release = release;
     }
@@ -60,6 +64,11 @@ public final class ServerConnection implements AutoCloseable {
     /** Where the server comes from, for the user: an address or an interpreter. */
     public String origin() {
         return origin;
+    }
+
+    /** What the user should know of this server, one sentence each. */
+    public List<String> warnings() {
+        return warnings;
     }
 
     /** Gives the connection back; a server of our own goes on for the next run. */

@@ -2,6 +2,7 @@
 package org.memtrack.server;
 
 import java.time.Duration;
+import java.util.List;
 import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
@@ -15,7 +16,7 @@ import org.memtrack.detection.DetectorException;
 /** Where detection servers are had from; one server of our own is shared by all of an ImageJ session. */
 public final class Servers {
     private static final Pattern ADDRESS = Pattern.compile("(\\[[0-9a-fA-F:]+\\]|[^:\\s]+):(\\d{1,5})");
-    private static final ManagedServer MANAGED = new ManagedServer(Duration.ofMinutes(10));
+    private static final ManagedServer MANAGED = new ManagedServer(Duration.ofMinutes(10), ServerWheel::find);
 
     static {
         Runtime.getRuntime().addShutdownHook(new Thread(MANAGED::close, "memtrack-server-end"));
@@ -56,7 +57,7 @@ public final class Servers {
         DetectionClient client = DetectionClient.connect(parts.group(1), Integer.parseInt(parts.group(2)), token);
         try {
             ServerInfo info = client.info(false);
-            return new ServerConnection(client, info, address, Optional::empty, client::close);
+            return new ServerConnection(client, info, address, List.of(), Optional::empty, client::close);
         } catch (DetectorException e) {
             client.close();
             throw new DetectorException(

@@ -4,6 +4,7 @@ package org.memtrack.trackmate;
 import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.SpotCollection;
 import fiji.plugin.trackmate.detection.SpotGlobalDetector;
+import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CancellationException;
 import net.imagej.ImgPlus;
@@ -86,6 +87,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
         Progress progress = new LoggerProgress(logger, this::isCanceled);
         try (ServerConnection connection = connector.acquire(progress.between(0, SERVER_STARTED))) {
             logger.log("MEMTrack server: %s%n".formatted(connection.origin()));
+            note(connection.warnings());
             DetectionResult result = connection.detect(film.film(), detection, progress.between(SERVER_STARTED, 1));
             tell(result);
             spots = spotsOf(result, film);
@@ -95,7 +97,7 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
     private void tell(DetectionResult result) {
         ModelInUse model = result.accepted();
         logger.log("Model %s %s on %s.%n".formatted(model.name(), model.version(), model.engine()));
-        result.warnings().forEach(warning -> logger.log("Note: %s%n".formatted(warning)));
+        note(result.warnings());
         logger.log("%s.%n".formatted(result.summary().describe(model.thresholds())));
         if (result.summary().kept() == 0) {
             logger.log(
@@ -104,6 +106,10 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
                             : "Nothing in this film looks like a bacterium to this model: check the channel, and give the"
                                     + " cell length if the film has no pixel size.\n");
         }
+    }
+
+    private void note(List<String> warnings) {
+        warnings.forEach(warning -> logger.log("Note: %s%n".formatted(warning)));
     }
 
     private SpotCollection spotsOf(DetectionResult result, FilmOfImg film) {

@@ -99,7 +99,10 @@ public final class CheckCommand implements PlugIn {
             report.append("Model: %s %s, SHA-256 %s%n    %s%n"
                     .formatted(model.name(), model.version(), model.sha256(), model.description()));
         }
-        if (!info.version().equals(PluginVersion.get())) {
+        for (String warning : connection.warnings()) {
+            report.append(Commands.wrapped(warning)).append("\n");
+        }
+        if (connection.warnings().isEmpty() && !info.version().equals(PluginVersion.get())) {
             report.append(
                     "The server is of another version than the plug-in: run \"MEMTrack Install Python Environment\".\n");
         }

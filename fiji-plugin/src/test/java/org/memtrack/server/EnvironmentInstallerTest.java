@@ -80,6 +80,27 @@ class EnvironmentInstallerTest {
     }
 
     @Test
+    void anEnvironmentTellsWhenItIsOfAnotherBuildThanThePlugin() throws Exception {
+        ServerWheel wheel = SmallWheel.of(SmallWheel.SERVER, ">=3");
+        PythonEnvironment made = install(wheel);
+        assertThat(PythonEnvironment.installed(data).orElseThrow().warning(wheel))
+                .isEmpty();
+
+        ServerWheel ofTheSameVersion = SmallWheel.of(SmallWheel.SERVER + "# changed", ">=3");
+        assertThat(made.warning(ofTheSameVersion).orElseThrow())
+                .contains(made.folder() + " is of another build than this plug-in")
+                .endsWith("run Plugins > Tracking > MEMTrack > MEMTrack Install Python Environment again.");
+
+        // As plug-ins wrote it that kept no fingerprint.
+        Files.writeString(
+                data.resolve("environment.json"),
+                "{\"folder\":\"%s\",\"version\":\"9.9.9\"}"
+                        .formatted(made.folder().getFileName()));
+        assertThat(PythonEnvironment.installed(data).orElseThrow().warning(wheel))
+                .isEqualTo(made.warning(ofTheSameVersion));
+    }
+
+    @Test
     void forTrainingTheExtraThatTheServerHasForItIsInstalled() throws Exception {
         ServerWheel wheel = SmallWheel.of(SmallWheel.SERVER, ">=3");
         installer(wheel).install(null, true, Progress.NONE);

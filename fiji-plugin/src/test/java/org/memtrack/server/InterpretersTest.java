@@ -46,7 +46,7 @@ class InterpretersTest {
                 .containsExactly(named);
         assertThat(commands(Interpreters.candidates(null, environment, folder))).containsExactly(onPath);
 
-        PythonEnvironment installed = new PythonEnvironment(folder.resolve("env-1"), "0.1.0");
+        PythonEnvironment installed = new PythonEnvironment(folder.resolve("env-1"), "0.1.0", null);
         Files.createDirectories(installed.python().getParent());
         executable(installed.python());
         assertThat(commands(Interpreters.candidates(null, environment, folder)))

@@ -76,7 +76,7 @@ class LocalServerTest {
 
     @Test
     void aProgramThatDoesNotExistIsNoServer() {
-        Interpreter missing = new Interpreter(List.of(folder.resolve("python").toString()), "as given", true, false);
+        Interpreter missing = new Interpreter(List.of(folder.resolve("python").toString()), "as given", null);
         assertThatThrownBy(() -> LocalServer.start(missing, Progress.NONE))
                 .isInstanceOf(StartException.class)
                 .hasMessageContaining("could not be run");
@@ -118,7 +118,7 @@ class LocalServerTest {
 
     @Test
     void allReasonsAreToldWhenNoPythonCanServe() throws Exception {
-        ManagedServer managed = new ManagedServer(Duration.ofMinutes(1));
+        ManagedServer managed = new ManagedServer(Duration.ofMinutes(1), Optional::empty);
         List<Interpreter> candidates = List.of(
                 script("import sys; sys.exit('first reason')"), script("import sys; sys.exit('second reason')"));
         assertThatThrownBy(() -> managed.acquire(candidates, Progress.NONE))
@@ -150,7 +150,7 @@ class LocalServerTest {
                 .map(found -> found.command().get(0))
                 .findFirst()
                 .orElseThrow(() -> new AssertionError("These tests need Python on the path"));
-        return new Interpreter(List.of(python, file.toString()), "as given", true, false);
+        return new Interpreter(List.of(python, file.toString()), "as given", null);
     }
 
     private static String quoted(Path path) {

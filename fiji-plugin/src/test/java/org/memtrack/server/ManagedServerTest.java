@@ -13,6 +13,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.Optional;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
@@ -31,7 +32,7 @@ class ManagedServerTest {
     @TempDir
     Path folder;
 
-    private final ManagedServer managed = new ManagedServer(Duration.ofMinutes(1));
+    private final ManagedServer managed = new ManagedServer(Duration.ofMinutes(1), Optional::empty);
 
     @Test
     void aServerInUseIsNotReplacedWhenItIsTooBusyToAnswer() throws Exception {
@@ -40,11 +41,7 @@ class ManagedServerTest {
                 .addService(answering(busy))
                 .build()
                 .start();
-        List<Interpreter> python = List.of(script("""
-                import json, sys
-                print(json.dumps({"protocol": 1, "port": %d, "pid": 1, "version": "9.9.9"}), flush=True)
-                sys.stdin.read()
-                """.formatted(server.getPort())));
+        List<Interpreter> python = List.of(greeting(server));
         try (ServerConnection first = managed.acquire(python, Progress.NONE)) {
             busy.set(true);
             try (ServerConnection second = managed.acquire(python, Progress.NONE)) {
@@ -56,6 +53,40 @@ class ManagedServerTest {
             managed.end();
             server.shutdownNow();
         }
+    }
+
+    @Test
+    void anInstalledServerOfAnotherBuildIsToldOfAndOneTheUserNamedIsNot() throws Exception {
+        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
+                .addService(answering(new AtomicBoolean()))
+                .build()
+                .start();
+        ServerWheel carried = SmallWheel.of(SmallWheel.SERVER, ">=3");
+        ManagedServer ofThisBuild = new ManagedServer(Duration.ofMinutes(1), () -> Optional.of(carried));
+        Interpreter named = greeting(server);
+        try {
+            assertThat(warnings(ofThisBuild, named)).isEmpty();
+            assertThat(warnings(ofThisBuild, installed(greeting(server), carried.sha256())))
+                    .isEmpty();
+            assertThat(warnings(ofThisBuild, installed(greeting(server), "0".repeat(64))))
+                    .singleElement()
+                    .asString()
+                    .contains("another build");
+        } finally {
+            ofThisBuild.end();
+            server.shutdownNow();
+        }
+    }
+
+    private static List<String> warnings(ManagedServer managed, Interpreter python) {
+        try (ServerConnection connection = managed.acquire(List.of(python), Progress.NONE)) {
+            return connection.warnings();
+        }
+    }
+
+    private Interpreter installed(Interpreter python, String wheelSha256) {
+        return new Interpreter(
+                python.command(), "installed by MEMTrack", new PythonEnvironment(folder, "9.9.9", wheelSha256));
     }
 
     @Test
@@ -88,10 +119,19 @@ class ManagedServerTest {
         };
     }
 
+    /** Leads to a server that runs already. */
+    private Interpreter greeting(Server server) throws Exception {
+        return script("""
+                import json, sys
+                print(json.dumps({"protocol": 1, "port": %d, "pid": 1, "version": "9.9.9"}), flush=True)
+                sys.stdin.read()
+                """.formatted(server.getPort()));
+    }
+
     private Interpreter script(String code) throws Exception {
         Path file = Files.writeString(Files.createTempFile(folder, "server", ".py"), code);
         String python =
                 Interpreters.onThisMachine(System.getenv()).get(0).command().get(0);
-        return new Interpreter(List.of(python, file.toString()), "as given", true, false);
+        return new Interpreter(List.of(python, file.toString()), "as given", null);
     }
 }

@@ -35,7 +35,7 @@ class PythonCommandTest {
     @Test
     void theFirstReasonIsTold() throws Exception {
         List<Interpreter> pythons = List.of(
-                new Interpreter(List.of(folder.resolve("gone").toString()), "installed by MEMTrack", false, true),
+                new Interpreter(List.of(folder.resolve("gone").toString()), "installed by MEMTrack", null),
                 script("import sys; sys.exit('No module named memtrack')"));
         assertThatThrownBy(() -> run(pythons, Duration.ofMinutes(1)))
                 .isInstanceOf(DetectorException.class)
@@ -94,6 +94,6 @@ class PythonCommandTest {
         Path file = Files.writeString(Files.createTempFile(folder, "memtrack", ".py"), code);
         String python =
                 Interpreters.onThisMachine(System.getenv()).get(0).command().get(0);
-        return new Interpreter(List.of(python, file.toString()), "on the path", false, false);
+        return new Interpreter(List.of(python, file.toString()), "on the path", null);
     }
 }

@@ -19,6 +19,8 @@ import java.util.stream.Stream;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.condition.DisabledOnOs;
+import org.junit.jupiter.api.condition.OS;
 import org.junit.jupiter.api.io.TempDir;
 
 /** The launcher in a process of its own, as the README's command starts it. */
@@ -137,8 +139,41 @@ class ProcessesTest {
                 .contains("(installed by MEMTrack)")
                 .contains("Devices: openvino CPU")
                 .contains("Model: default")
+                .doesNotContain("another build")
                 .doesNotContain("[aborted]");
         assertThat(process.exitValue()).isZero();
+    }
+
+    /** As after a new jar was put in the place of one that had installed its server. */
+    @Test
+    @DisabledOnOs(value = OS.WINDOWS, disabledReason = "the environment's Python is a shell script")
+    void anInstalledServerOfAnotherBuildIsToldOf() throws Exception {
+        Path home = folder.resolve("older build");
+        Path python = home.resolve("env-0.1.0-20200101-000000").resolve("bin").resolve("python");
+        Files.createDirectories(python.getParent());
+        Files.writeString(python, "#!/bin/sh\nexec '%s' \"$@\"\n".formatted(Python.path()));
+        assertThat(python.toFile().setExecutable(true)).isTrue();
+        Files.writeString(
+                home.resolve("environment.json"),
+                "{\"folder\": \"env-0.1.0-20200101-000000\", \"version\": \"0.1.0\"}");
+        Path log = folder.resolve("older-build.log");
+        Process process = launch(
+                log,
+                Map.of("MEMTRACK_HOME", home.toString(), "MEMTRACK_PYTHON", ""),
+                Macros.class,
+                "run(\"MEMTrack Check Installation\");",
+                "open(\"%s\"); run(\"MEMTrack Track\", \"output=[%s] last_frame=10\");"
+                        .formatted(film, folder.resolve("of an older build")));
+        assertThat(process.waitFor(100, TimeUnit.SECONDS)).isTrue();
+        assertThat(process.exitValue()).as(Files.readString(log)).isZero();
+        String sentence = "The server installed in %s is of another build than this plug-in and may not know all of its"
+                        .formatted(python.getParent().getParent())
+                + " options: run Plugins > Tracking > MEMTrack > MEMTrack Install Python Environment again.";
+        String said = Files.readString(log);
+        assertThat(said).contains("MEMTrack, note: " + sentence);
+        assertThat(said.replace('\n', ' '))
+                .as("in lines of the window of the check")
+                .containsPattern("SHA-256 .* \\Q%s\\E".formatted(sentence));
     }
 
     @Test
