@@ -10,8 +10,8 @@ import org.memtrack.tracking.Matching.Pair;
 /**
  * SORT, frame by frame: predict, match, update, begin and end tracklets.
  *
- * <p>Bewley et al. 2016, "Simple online and realtime tracking". A tracklet gets the points that can be told at once, so
- * that a live mode can read them; gaps are filled afterwards.
+ * <p>Bewley et al. 2016, "Simple online and realtime tracking". A tracklet gets the points that can be told at once; gaps
+ * are filled afterwards, since where a swimmer was in one is told by its way after it, too.
  */
 final class Sort {
     private final SortSettings settings;
