@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 package org.memtrack.run;
 
-import ij.ImageJ;
+import ij.IJ;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
 import java.util.LinkedHashMap;
@@ -56,7 +56,8 @@ public final class Origin {
         software.put("protocol", Integer.toString(result.server().protocol()));
         software.put("Python", result.server().pythonVersion());
         new TreeMap<>(result.server().libraries()).forEach(software::put);
-        software.put("ImageJ", ImageJ.VERSION + ImageJ.BUILD);
+        // Not ImageJ.VERSION, a constant: javac would put in that of the ImageJ which the plug-in is compiled against.
+        software.put("ImageJ", IJ.getVersion());
         software.put("Java", System.getProperty("java.version", ""));
         software.put("system", System.getProperty("os.name", "") + " " + System.getProperty("os.arch", ""));
         return software;

@@ -2,7 +2,6 @@
 package org.memtrack.ui;
 
 import ij.IJ;
-import ij.ImageJ;
 import ij.Macro;
 import ij.plugin.PlugIn;
 import ij.text.TextWindow;
@@ -58,14 +57,13 @@ public final class CheckCommand implements PlugIn {
                 .orElse("none in " + DataFolder.path());
         return """
                 MEMTrack plug-in: %s
-                ImageJ: %s%s, Java %s, %s %s
+                ImageJ: %s, Java %s, %s %s
                 Installed Python environment: %s
                 Python carried by a jar: %s
                 TrackMate: %s
                 """.formatted(
                         PluginVersion.get(),
-                        ImageJ.VERSION,
-                        ImageJ.BUILD,
+                        IJ.getVersion(),
                         System.getProperty("java.version"),
                         System.getProperty("os.name"),
                         System.getProperty("os.arch"),

@@ -4,12 +4,16 @@ package org.memtrack.run;
 import static org.assertj.core.api.Assertions.assertThat;
 
 import ij.IJ;
+import ij.ImageJ;
 import ij.ImagePlus;
 import ij.io.FileSaver;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 import java.util.OptionalDouble;
+import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.client.DetectionResult;
@@ -70,6 +74,19 @@ class OriginTest {
         assertThat(SmallRun.origin(cropped, SmallRun.result(cropped)).film())
                 .containsEntry("opened_from", file.toString())
                 .doesNotContainKey("file");
+    }
+
+    @Test
+    void theImageJOfARunIsTheOneThatRuns() throws Exception {
+        Film film = SmallRun.film();
+        assertThat(SmallRun.origin(film, SmallRun.result(film)).software()).containsEntry("ImageJ", IJ.getVersion());
+        try (Stream<Path> classes = Files.walk(Path.of("target", "classes", "org", "memtrack"))) {
+            assertThat(classes.filter(file -> file.toString().endsWith(".class")))
+                    .isNotEmpty()
+                    .allSatisfy(file -> assertThat(Files.readString(file, StandardCharsets.ISO_8859_1))
+                            .as("the version of the ImageJ that %s was compiled against", file)
+                            .doesNotContain(ImageJ.VERSION));
+        }
     }
 
     @Test
