@@ -219,12 +219,20 @@ public final class EnvironmentInstaller {
                             .formatted(e.getMessage(), doing, log()),
                     e);
         } finally {
-            Files.write(log(), said, StandardCharsets.UTF_8, StandardOpenOption.CREATE, StandardOpenOption.APPEND);
+            Files.write(
+                    log(), copyOf(said), StandardCharsets.UTF_8, StandardOpenOption.CREATE, StandardOpenOption.APPEND);
         }
         if (ended.exitCode() != 0) {
             throw new DetectorException(
                     "Python failed while %s (%s): mend that and run this command again; all it said is in %s."
                             .formatted(doing, InstallFailures.cause(ended.lines()), log()));
+        }
+    }
+
+    /** Of a synchronised list, which what a program left running may still add to. */
+    private static List<String> copyOf(List<String> said) {
+        synchronized (said) {
+            return List.copyOf(said);
         }
     }
 

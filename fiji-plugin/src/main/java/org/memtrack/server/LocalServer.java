@@ -191,12 +191,8 @@ final class LocalServer {
     }
 
     private static String reason(Interpreter interpreter, String what, Tail errors, Tail output) {
-        try {
-            errors.finish();
-            output.finish();
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
+        errors.finish();
+        output.finish();
         List<String> lines = errors.lines();
         if (lines.stream().anyMatch(line -> line.endsWith("No module named memtrack"))) {
             return interpreter.describe() + " has no package memtrack";

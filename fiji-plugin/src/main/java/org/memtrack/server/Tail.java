@@ -34,8 +34,12 @@ final class Tail {
     }
 
     /** Waits until the stream has ended, at most a second: a grandchild may hold it open. */
-    void finish() throws InterruptedException {
-        reader.join(1000);
+    void finish() {
+        try {
+            reader.join(1000);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
     }
 
     private void read(InputStream stream, Consumer<String> each) {

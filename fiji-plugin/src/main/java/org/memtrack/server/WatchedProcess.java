@@ -37,7 +37,7 @@ final class WatchedProcess {
     /**
      * Runs a program.
      *
-     * @param each told every line, in a thread of its own
+     * @param each told every line, in a thread of its own; also those that were on their way when the program was ended
      * @param limit after which the program is ended
      * @throws IOException when it cannot be started
      * @throws TimeoutException when it did not end in time; the message is a clause that says so
@@ -58,15 +58,15 @@ final class WatchedProcess {
                             + (limit.toMinutes() > 0 ? limit.toMinutes() + " min" : limit.toSeconds() + " s"));
                 }
             }
-            output.finish();
-            return new End(process.exitValue(), output.lines());
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new CancellationException("Interrupted.");
         } finally {
             kill(process);
             RUNNING.remove(process);
+            output.finish();
         }
+        return new End(process.exitValue(), output.lines());
     }
 
     /** Ends it and its children; on Windows the python of a venv is a launcher, and its child the real one. */

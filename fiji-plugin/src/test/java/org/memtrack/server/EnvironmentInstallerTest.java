@@ -3,6 +3,7 @@ package org.memtrack.server;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.junit.jupiter.api.Assumptions.assumeFalse;
 import static org.junit.jupiter.api.Assumptions.assumeTrue;
 
 import java.io.IOException;
@@ -124,6 +125,33 @@ class EnvironmentInstallerTest {
                 .isInstanceOf(CancellationException.class);
         assertThat(environments()).isEmpty();
         assertThat(PythonEnvironment.installed(data)).isEmpty();
+    }
+
+    @Test
+    void anInstallationThatIsCancelledWhileItPrintsEndsAsCancelledAndLeavesItsLog() throws Exception {
+        assumeFalse(Interpreters.windows(), "A script of the shell stands for the interpreter.");
+        EnvironmentStart talkative = (environment, progress) -> {
+            Path python = Files.createDirectories(environment.resolve("bin")).resolve("python");
+            Files.writeString(python, "#!/bin/sh\nwhile :; do echo more; done\n");
+            assertThat(python.toFile().setExecutable(true)).isTrue();
+        };
+        AtomicReference<String> said = new AtomicReference<>("");
+        Progress cancelledWhenItPrints = new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
+                said.set(message);
+            }
+
+            @Override
+            public boolean cancelled() {
+                return said.get().equals("more");
+            }
+        };
+        Files.createDirectories(data);
+        EnvironmentInstaller installer = installer(SmallWheel.of(SmallWheel.SERVER, ">=3"));
+        assertThatThrownBy(() -> installer.make(talkative, false, cancelledWhenItPrints))
+                .isInstanceOf(CancellationException.class);
+        assertThat(Files.readAllLines(installer.log())).hasSizeGreaterThan(1).containsOnly("more");
     }
 
     @Test

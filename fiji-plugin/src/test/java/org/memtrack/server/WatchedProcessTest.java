@@ -13,6 +13,10 @@ import java.util.List;
 import java.util.Optional;
 import java.util.OptionalDouble;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.atomic.AtomicInteger;
+import java.util.concurrent.locks.LockSupport;
+import java.util.function.BooleanSupplier;
+import java.util.function.Consumer;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -38,7 +42,8 @@ class WatchedProcessTest {
         Path pid = folder.resolve("pid");
         String launcher = "import subprocess, sys; subprocess.run([sys.executable, '-c', sys.argv[1], sys.argv[2]])";
         ProcessBuilder program = python().process("-c", launcher, WORK, pid.toString());
-        assertThatThrownBy(() -> WatchedProcess.run(program, cancelledOnce(pid), line -> {}, Duration.ofMinutes(1)))
+        assertThatThrownBy(() -> WatchedProcess.run(
+                        program, cancelledWhen(() -> Files.exists(pid)), line -> {}, Duration.ofMinutes(1)))
                 .isInstanceOf(CancellationException.class);
         assertThat(running(pid)).isEmpty();
     }
@@ -57,6 +62,22 @@ class WatchedProcessTest {
         assertThat(running(pid)).isEmpty();
     }
 
+    @Test
+    void nothingIsHeardOfACancelledProgramAnyMore() throws Exception {
+        ProcessBuilder program = python().process("-c", "while True: print('more')");
+        AtomicInteger heard = new AtomicInteger();
+        Consumer<String> slow = line -> {
+            heard.incrementAndGet();
+            LockSupport.parkNanos(1_000);
+        };
+        assertThatThrownBy(() -> WatchedProcess.run(
+                        program, cancelledWhen(() -> heard.get() > 1000), slow, Duration.ofMinutes(1)))
+                .isInstanceOf(CancellationException.class);
+        int heardAtTheEnd = heard.get();
+        Thread.sleep(200);
+        assertThat(heard).hasValue(heardAtTheEnd);
+    }
+
     private static Optional<ProcessHandle> running(Path pid) throws IOException {
         return ProcessHandle.of(Long.parseLong(Files.readString(pid))).filter(ProcessHandle::isAlive);
     }
@@ -65,14 +86,14 @@ class WatchedProcessTest {
         return Interpreters.onThisMachine(System.getenv()).get(0);
     }
 
-    private static Progress cancelledOnce(Path exists) {
+    private static Progress cancelledWhen(BooleanSupplier enough) {
         return new Progress() {
             @Override
             public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {}
 
             @Override
             public boolean cancelled() {
-                return Files.exists(exists);
+                return enough.getAsBoolean();
             }
         };
     }
