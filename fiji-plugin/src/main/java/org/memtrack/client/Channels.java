@@ -14,6 +14,9 @@ final class Channels {
     private static final Metadata.Key<String> AUTHORIZATION =
             Metadata.Key.of("authorization", Metadata.ASCII_STRING_MARSHALLER);
 
+    /** The most that the server takes, too; the largest answer is one frame with all boxes that a low threshold lets through. */
+    private static final int LARGEST_MESSAGE_BYTES = 16 << 20;
+
     private Channels() {}
 
     static ManagedChannel open(String host, int port, String token) {
@@ -26,6 +29,7 @@ final class Channels {
         return builder
                 // Otherwise a lab's proxy settings send even the loopback through the proxy.
                 .proxyDetector(address -> null)
+                .maxInboundMessageSize(LARGEST_MESSAGE_BYTES)
                 .keepAliveTime(60, TimeUnit.SECONDS)
                 .intercept(MetadataUtils.newAttachHeadersInterceptor(headers))
                 .build();
