@@ -6,6 +6,7 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Locale;
 import java.util.OptionalDouble;
+import java.util.function.Predicate;
 import java.util.stream.IntStream;
 import java.util.stream.Stream;
 import org.memtrack.detection.Box;
@@ -28,20 +29,30 @@ public final class TrackCsv {
 
     /** Writes the tracks of a film, all or nothing. */
     public static void write(Path target, TrackedFilm tracked) throws IOException {
+        write(target, tracked, box -> true);
+    }
+
+    /**
+     * Likewise.
+     *
+     * @param measured whether a box has the size of what was seen; of others the middle alone is written
+     */
+    public static void write(Path target, TrackedFilm tracked, Predicate<Box> measured) throws IOException {
         CsvFile.write(
                 target,
                 HEADER,
-                IntStream.range(0, tracked.tracks().size()).boxed().flatMap(i -> rows(tracked, i)));
+                IntStream.range(0, tracked.tracks().size()).boxed().flatMap(i -> rows(tracked, i, measured)));
     }
 
-    private static Stream<List<String>> rows(TrackedFilm tracked, int index) {
+    private static Stream<List<String>> rows(TrackedFilm tracked, int index, Predicate<Box> measured) {
         Track track = tracked.tracks().get(index);
+        TrackMotility motility = tracked.motility().get(index);
         return track.points().stream()
-                .map(point ->
-                        cells(tracked.film(), track, point, tracked.motility().get(index)));
+                .map(point -> cells(tracked.film(), track, point, measured.test(point.box()), motility));
     }
 
-    private static List<String> cells(FilmInfo film, Track track, TrackPoint point, TrackMotility motility) {
+    private static List<String> cells(
+            FilmInfo film, Track track, TrackPoint point, boolean measured, TrackMotility motility) {
         Box box = point.box();
         Detection detection = point.detection();
         return List.of(
@@ -52,8 +63,8 @@ public final class TrackCsv {
                 decimal(box.centreY()),
                 times(box.centreX(), film.pixelSizeMicrometres()),
                 times(box.centreY(), film.pixelSizeMicrometres()),
-                decimal(box.width()),
-                decimal(box.height()),
+                measured ? decimal(box.width()) : "",
+                measured ? decimal(box.height()) : "",
                 detection == null ? "" : decimal(detection.score()),
                 detection == null ? "" : word(detection.level()),
                 point.interpolated() ? "1" : "0",

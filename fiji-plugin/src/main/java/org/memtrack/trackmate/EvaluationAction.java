@@ -16,7 +16,6 @@ import java.util.concurrent.CancellationException;
 import javax.swing.ImageIcon;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.client.Progress;
-import org.memtrack.formats.TrackCsv;
 import org.memtrack.server.PythonCommand;
 import org.scijava.plugin.Plugin;
 
@@ -44,7 +43,8 @@ final class EvaluationAction extends ModelAction {
         public String getInfoText() {
             return "<html>Compares the visible tracks with a ground truth: an MTrackJ file (.mdf), a TrackMate file (.xml) or a"
                     + " table (.csv). Boxes of truth and track match, one to one, when they overlap by more than 0.1 (IoU), as"
-                    + " in the paper; precision, recall, F1 and tracking measures come as a page beside the truth.</html>";
+                    + " in the paper; where a spot has no box of MEMTrack's, a square of 30 pixels stands for it. Precision,"
+                    + " recall, F1 and tracking measures come as a page beside the truth.</html>";
         }
 
         @Override
@@ -91,7 +91,7 @@ final class EvaluationAction extends ModelAction {
         Path folder = Files.createTempDirectory("memtrack-evaluation");
         Path table = folder.resolve("tracks.csv");
         try {
-            TrackCsv.write(table, tracks.tracked());
+            tracks.write(table);
             List<String> arguments = new ArrayList<>(List.of(
                     "evaluate",
                     "--truth",

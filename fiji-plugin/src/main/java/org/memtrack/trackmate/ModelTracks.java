@@ -7,16 +7,21 @@ import fiji.plugin.trackmate.TrackMate;
 import fiji.plugin.trackmate.TrackModel;
 import ij.ImagePlus;
 import ij.measure.Calibration;
+import java.io.IOException;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.Comparator;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.TreeSet;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.formats.SpotFeature;
+import org.memtrack.formats.TrackCsv;
 import org.memtrack.formats.TrackedFilm;
 import org.memtrack.tracking.GapFilling;
 import org.memtrack.tracking.Track;
@@ -33,9 +38,10 @@ import org.memtrack.video.Units;
  * @param tracked gaps of a track are filled with interpolated points
  * @param film the film, in the channel that was detected in
  * @param names of the tracks, as TrackMate shows them, in the same order
+ * @param measured those of the boxes that MEMTrack gave; the size of the others is a guess
  * @param notes what the user should know, one sentence each
  */
-record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List<String> notes) {
+record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, Set<Box> measured, List<String> notes) {
 
     /**
      * Takes the tracks.
@@ -52,6 +58,7 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
         TrackModel model = trackmate.getModel().getTrackModel();
         List<Track> tracks = new ArrayList<>();
         List<String> names = new ArrayList<>();
+        Set<Box> measured = new HashSet<>();
         List<String> branching = new ArrayList<>();
         for (Integer id : new TreeSet<>(model.trackIDs(true))) {
             List<Spot> spots = model.trackSpots(id).stream()
@@ -62,6 +69,9 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
             } else {
                 tracks.add(track(tracks.size(), spots, settings));
                 names.add(model.name(id));
+                spots.stream()
+                        .filter(Spots::hasBox)
+                        .forEach(spot -> measured.add(Spots.box(spot, settings.dx, settings.dy)));
             }
         }
         if (tracks.isEmpty()) {
@@ -75,7 +85,12 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, List
             notes.add("Left out, since they split or merge: %s.".formatted(String.join(", ", branching)));
         }
         List<FrameDetections> drift = SpotDrift.of(trackmate.getModel().getSpots(), settings.dx, settings.dy);
-        return new ModelTracks(TrackedFilm.of(film.info(), tracks, drift), film, names, notes);
+        return new ModelTracks(TrackedFilm.of(film.info(), tracks, drift), film, names, measured, notes);
+    }
+
+    /** Writes them as a table, without the sizes that are a guess. */
+    void write(Path table) throws IOException {
+        TrackCsv.write(table, tracked, measured::contains);
     }
 
     /** As the tracks were made: a film that was opened from a TrackMate file may have lost its calibration and axes. */

@@ -28,6 +28,7 @@ final class SpotFilm {
     private final List<FrameDetections> frames = new ArrayList<>();
     private final List<Spot> interpolated = new ArrayList<>();
     private double interval = Double.NaN;
+    private boolean boxed;
 
     private SpotFilm(SpotCollection spots, double pixelWidth, double pixelHeight) {
         this.spots = spots;
@@ -62,6 +63,7 @@ final class SpotFilm {
                 continue;
             }
             spot.putFeature(SpotFeature.INTERPOLATED.key(), 0.0);
+            boxed |= Spots.hasBox(spot);
             double time = Spots.value(spot, Spot.POSITION_T, Double.NaN);
             if (frame > 0 && time > 0) {
                 interval = time / frame;
@@ -101,7 +103,7 @@ final class SpotFilm {
         interpolated.forEach(spot -> spots.remove(spot, Spots.frame(spot)));
     }
 
-    /** A spot, not in the collection yet, where no detection is; its quality is 0, since nothing was seen. */
+    /** A spot, not in the collection yet, where no detection is; its quality is 0, since nothing was seen, and it has a box where others do. */
     Spot interpolate(int frame, Box box) {
         double width = box.width() * pixelWidth;
         double height = box.height() * pixelHeight;
@@ -109,8 +111,10 @@ final class SpotFilm {
         spot.putFeature(Spot.FRAME, (double) frame);
         spot.putFeature(Spot.POSITION_T, frame * interval);
         spot.putFeature(SpotFeature.INTERPOLATED.key(), 1.0);
-        spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
-        spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
+        if (boxed) {
+            spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
+            spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
+        }
         SpotDrift.put(spot, drift.x(frame) * pixelWidth, drift.y(frame) * pixelHeight);
         return spot;
     }

@@ -21,8 +21,14 @@ final class Spots {
         return new Spot(x, y, 0, radius, quality);
     }
 
+    /** Whether it carries the box of what MEMTrack saw; another detector's radius is a setting of it, not a size. */
+    static boolean hasBox(Spot spot) {
+        return value(spot, SpotFeature.BOX_WIDTH.key(), 0) > 0;
+    }
+
     /**
-     * The box of a spot, in pixels: the one the detector gave, else the square around the spot's radius.
+     * The box of a spot, in pixels: the one the detector gave, else the square around the spot's radius, to track by and not
+     * to measure.
      *
      * @param pixelWidth edge of a pixel, in the unit of length of the spot
      * @param pixelHeight likewise

@@ -18,7 +18,6 @@ import java.util.concurrent.CancellationException;
 import javax.swing.ImageIcon;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.formats.AtomicFiles;
-import org.memtrack.formats.TrackCsv;
 import org.memtrack.video.ImageFilm;
 import org.scijava.plugin.Plugin;
 
@@ -87,7 +86,7 @@ final class TrainingDataAction extends ModelAction {
             }
         }
         writeFilm(tracks.film(), film);
-        TrackCsv.write(table, tracks.tracked());
+        tracks.write(table);
         String lines = recipe(tracks, film, table);
         AtomicFiles.write(recipe, out -> out.write(lines.getBytes(StandardCharsets.UTF_8)));
         return List.of(film, table, recipe);

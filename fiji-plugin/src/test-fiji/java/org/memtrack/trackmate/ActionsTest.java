@@ -173,7 +173,11 @@ class ActionsTest {
         ModelTracks inMemory = ModelTracks.of(tracked());
         FilmOptions options = new FilmOptions(FrameAxis.T, 1, 1, 0, OptionalDouble.empty(), OptionalDouble.empty());
         return new ModelTracks(
-                inMemory.tracked(), new ImageFilm(film, options), inMemory.names(), inMemory.notes());
+                inMemory.tracked(),
+                new ImageFilm(film, options),
+                inMemory.names(),
+                inMemory.measured(),
+                inMemory.notes());
     }
 
     @Test
@@ -192,7 +196,7 @@ class ActionsTest {
     void tracksComparedWithThemselvesAreRight(@TempDir Path folder) throws Exception {
         ModelTracks tracks = ModelTracks.of(tracked());
         Path truth = folder.resolve("truth with space ü.csv");
-        TrackCsv.write(truth, tracks.tracked());
+        tracks.write(truth);
         List<String> lines = EvaluationAction.evaluate(tracks, truth, folder.resolve("out"), Progress.NONE);
         assertThat(lines)
                 .contains(
@@ -200,6 +204,42 @@ class ActionsTest {
                         "Tracks in the truth: 2. Compared with it: 2, of which 0 false, with fewer than half of their points right.");
         assertThat(folder.resolve("out/evaluation.html")).exists();
         assertThat(Files.readString(folder.resolve("out/evaluation.json"))).contains("\"f1\": 1.0");
+    }
+
+    @Test
+    void theRadiusOfAnotherDetectorIsNoSizeToCompareOrTrainBy(@TempDir Path folder) throws Exception {
+        ModelTracks tracks = ModelTracks.of(tracked());
+        Path truth = folder.resolve("truth.csv");
+        TrackCsv.write(truth, tracks.tracked());
+        // As the paper's annotators did, squares of 30 px; the spots' radius is 4 px.
+        Files.writeString(truth, Files.readString(truth).replace(",8.0000,8.0000,", ",30.0000,30.0000,"));
+        assertThat(Files.readString(truth)).contains(",30.0000,30.0000,");
+
+        assertThat(EvaluationAction.evaluate(tracks, truth, folder.resolve("out"), Progress.NONE))
+                .contains("Boxes, frame by frame: precision 1.000, recall 1.000, F1 1.000; 1 is best.");
+        Path table = TrainingDataAction.export(tracks, folder.resolve("training")).get(1);
+        assertThat(Files.readAllLines(table)).hasSize(1 + 2 * 20).doesNotContainSequence("8.0000,8.0000");
+        assertThat(Files.readAllLines(table).subList(1, 41)).allMatch(row -> row.split(",", -1)[7].isEmpty());
+    }
+
+    @Test
+    void boxesOfMemtrackAreWrittenAndThoseOfHandMadeSpotsAreNot(@TempDir Path folder) throws Exception {
+        TrackMate trackmate = tracked();
+        for (Spot spot : trackmate.getModel().getSpots().iterable(true)) {
+            if (spot.getFeature(Spot.FRAME) != 5) {
+                spot.putFeature("MEMTRACK_BOX_WIDTH", 6.0);
+                spot.putFeature("MEMTRACK_BOX_HEIGHT", 5.0);
+            }
+        }
+        Path table = folder.resolve("tracks.csv");
+        ModelTracks.of(trackmate).write(table);
+        assertThat(Files.readAllLines(table))
+                .filteredOn(row -> row.contains(",24.0000,20.0000,"))
+                .hasSize(2 * 19);
+        assertThat(Files.readAllLines(table))
+                .filteredOn(row -> row.matches("[01],5,.*"))
+                .hasSize(2)
+                .allMatch(row -> row.split(",", -1)[7].isEmpty() && row.split(",", -1)[8].isEmpty());
     }
 
     @Test

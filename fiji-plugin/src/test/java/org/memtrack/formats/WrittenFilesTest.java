@@ -50,6 +50,21 @@ class WrittenFilesTest {
     }
 
     @Test
+    void ofABoxThatIsNoMeasurementTheTableHasTheMiddleAlone() throws IOException {
+        Path file = folder.resolve("tracks.csv");
+        Box first = tracked.tracks().get(0).points().get(0).box();
+
+        TrackCsv.write(file, tracked, box -> !box.equals(first));
+
+        List<String> lines = Files.readAllLines(file);
+        assertThat(lines.get(1))
+                .contains(",%s,,,"
+                        .formatted(
+                                TrackCsv.times(first.centreY(), tracked.film().pixelSizeMicrometres())));
+        assertThat(lines.subList(2, lines.size())).allMatch(row -> row.matches("([^,]*,){7}[0-9.]+,[0-9.]+,.*"));
+    }
+
+    @Test
     void csvHasOneHeaderRowAndNoCellThatASpreadsheetCouldRun() throws IOException {
         Path file = folder.resolve("tracks.csv");
         Path motility = folder.resolve("motility.csv");

@@ -11,6 +11,7 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.OptionalDouble;
 import java.util.Random;
+import java.util.Set;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
@@ -39,7 +40,7 @@ class SpeedsPlotTest {
         ImageFilm film = new ImageFilm(image, options);
         List<String> names = tracks.stream().map(track -> "Track_" + track.id()).toList();
         return MotilityAction.speeds(
-                new ModelTracks(TrackedFilm.of(film.info(), tracks, List.of()), film, names, List.of()));
+                new ModelTracks(TrackedFilm.of(film.info(), tracks, List.of()), film, names, Set.of(), List.of()));
     }
 
     private static Track track(int id, double speed, int frames) {
