@@ -5,8 +5,6 @@ import fiji.plugin.trackmate.Spot;
 import fiji.plugin.trackmate.SpotCollection;
 import fiji.plugin.trackmate.tracking.SpotTracker;
 import ij.ImagePlus;
-import java.util.ArrayList;
-import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.concurrent.CancellationException;
@@ -14,15 +12,15 @@ import org.jgrapht.graph.DefaultWeightedEdge;
 import org.jgrapht.graph.SimpleWeightedGraph;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.tracking.Field;
+import org.memtrack.tracking.FilteredTracks;
 import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.SortTracker;
-import org.memtrack.tracking.Track;
-import org.memtrack.tracking.TrackFilter;
 
 /**
  * Tracks a collection of spots, and adds to it the spots it interpolates.
  *
- * <p>Spots that an earlier run interpolated are taken out; nothing is changed before the tracks are found.
+ * <p>Spots that an earlier run interpolated are taken out; nothing is changed before the tracks are found. The track filter
+ * asks no score of another detector's spots, and no edge of the field where there is no image.
  */
 final class MemtrackTracker extends StoppableModule implements SpotTracker {
     private final SpotCollection spots;
@@ -67,16 +65,12 @@ final class MemtrackTracker extends StoppableModule implements SpotTracker {
 
     private void track(SortSettings sort) {
         SpotFilm film = SpotFilm.of(spots, image);
-        // The length filter is applied here, so that the user learns how much it drops.
-        List<Track> all = new SortTracker(sort.with(TrackFilter.ofLength(1)))
-                .trackAndFilter(film.frames(), logger::setProgress, this::isCanceled)
-                .tracks();
         Field field = image == null ? null : new Field(image.getWidth(), image.getHeight());
-        List<Track> kept = new ArrayList<>(all);
-        kept.removeIf(track -> !sort.filter().keeps(track.points(), field));
+        FilteredTracks found =
+                new SortTracker(sort, field).trackAndFilter(film.frames(), logger::setProgress, this::isCanceled);
 
         film.removeInterpolated();
-        TrackGraph built = TrackGraph.of(kept, film);
+        TrackGraph built = TrackGraph.of(found.tracks(), film);
         built.interpolated().forEach(spot -> spots.add(spot, Spots.frame(spot)));
         SpotMeasurements.complete(built.interpolated(), film.observed(), image);
         graph = built.graph();
@@ -84,15 +78,15 @@ final class MemtrackTracker extends StoppableModule implements SpotTracker {
         logger.log(String.format(
                 Locale.ROOT,
                 "%d tracks kept, with %d interpolated spots; %d too short or of too low a score were dropped.%n",
-                kept.size(),
+                found.tracks().size(),
                 built.interpolated().size(),
-                all.size() - kept.size()));
-        if (kept.isEmpty() && !all.isEmpty()) {
-            int longest = all.stream().mapToInt(Track::length).max().orElse(0);
-            logger.log(String.format(
-                    Locale.ROOT,
-                    "The longest track has %d frames: lower the least track length or score to see it.%n",
-                    longest));
+                found.dropped()));
+        if (found.tracks().isEmpty() && found.dropped() > 0) {
+            logger.log("To see them, lower the least track length or score.\n");
+        }
+        if (!film.hasScores()) {
+            logger.log(
+                    "The least track score was not asked: the spots are not of the MEMTrack detector, and have no score.\n");
         }
     }
 

@@ -15,6 +15,7 @@ import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.detection.Level;
 import org.memtrack.detection.StageDrift;
 import org.memtrack.formats.SpotFeature;
 
@@ -83,6 +84,11 @@ final class SpotFilm {
 
     List<FrameDetections> frames() {
         return frames;
+    }
+
+    /** Whether any spot has the score of a MEMTrack detector. */
+    boolean hasScores() {
+        return spotOf.keySet().stream().anyMatch(detection -> detection.level() != Level.UNSPECIFIED);
     }
 
     /** The spot that became a detection; by identity, two spots may be equal. */

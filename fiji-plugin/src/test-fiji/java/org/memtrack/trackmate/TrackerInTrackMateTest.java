@@ -4,9 +4,11 @@ package org.memtrack.trackmate;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
+import fiji.plugin.trackmate.Logger;
 import fiji.plugin.trackmate.Model;
 import fiji.plugin.trackmate.Settings;
 import fiji.plugin.trackmate.Spot;
+import fiji.plugin.trackmate.SpotCollection;
 import fiji.plugin.trackmate.TrackMate;
 import fiji.plugin.trackmate.detection.LogDetectorFactory;
 import fiji.plugin.trackmate.features.FeatureFilter;
@@ -18,14 +20,27 @@ import ij.ImagePlus;
 import java.io.File;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeSet;
 import java.util.stream.Collectors;
 import java.util.stream.StreamSupport;
+import org.jgrapht.alg.connectivity.ConnectivityInspector;
 import org.jgrapht.graph.DefaultWeightedEdge;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+import org.memtrack.detection.Box;
+import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
+import org.memtrack.formats.SpotFeature;
+import org.memtrack.testing.RandomWorld;
+import org.memtrack.tracking.Field;
+import org.memtrack.tracking.SortSettings;
+import org.memtrack.tracking.SortTracker;
+import org.memtrack.tracking.Track;
 
 /** The tracker on spots of TrackMate's own detector, and what TrackMate does with its result. */
 class TrackerInTrackMateTest {
@@ -81,6 +96,75 @@ class TrackerInTrackMateTest {
             assertThat(spot.getFeature(Spot.RADIUS)).isCloseTo(4 * Films.PIXEL_SIZE, within(1e-9));
             assertThat(spot.getFeature(Spot.QUALITY)).isZero();
         }
+    }
+
+    /** Dense, with many spurious boxes: their debris must be dropped before tracks that share a swimmer are joined. */
+    @ParameterizedTest
+    @ValueSource(longs = {1, 4, 8})
+    void spotsOfTheMemtrackDetectorAreTheTracksOfTheMenuCommand(long seed) {
+        List<FrameDetections> frames = RandomWorld.of(
+                        new RandomWorld.Settings(200, 150, 100, 25, 1, 0.05, 30, 3, 0.3, 0.02, 0.2, 12), seed)
+                .frames();
+        SortSettings sort = SortSettings.WATER;
+        List<Track> expected = new SortTracker(sort, new Field(200, 150)).track(frames);
+
+        SpotCollection spots = new SpotCollection();
+        frames.forEach(frame -> frame.detections().forEach(detection -> spots.add(spot(detection), frame.frame())));
+        ImagePlus image = IJ.createImage("film", "8-bit black", 200, 150, 1);
+        MemtrackTracker tracker = new MemtrackTracker(spots, TrackerSettings.toMap(sort), image);
+        StringBuilder said = new StringBuilder();
+        tracker.setLogger(new Logger.StringBuilderLogger(said));
+        assertThat(tracker.checkInput()).as(tracker.getErrorMessage()).isTrue();
+        assertThat(tracker.process()).as(tracker.getErrorMessage()).isTrue();
+
+        assertThat(new ConnectivityInspector<>(tracker.getResult())
+                        .connectedSets().stream().map(TrackerInTrackMateTest::places))
+                .containsExactlyInAnyOrderElementsOf(expected.stream()
+                        .map(track -> track.points().stream()
+                                .map(point -> place(
+                                        point.frame(),
+                                        point.box().centreX(),
+                                        point.box().centreY()))
+                                .collect(Collectors.toSet()))
+                        .toList());
+        assertThat(said).contains("%d tracks kept".formatted(expected.size())).doesNotContain("score was not asked");
+    }
+
+    private static Spot spot(Detection detection) {
+        Box box = detection.box();
+        Spot spot = Spots.at(box.centreX(), box.centreY(), (box.width() + box.height()) / 4, detection.score());
+        spot.putFeature("MEMTRACK_LEVEL", (double) SpotFeature.codeOf(detection.level()));
+        spot.putFeature("MEMTRACK_BOX_WIDTH", box.width());
+        spot.putFeature("MEMTRACK_BOX_HEIGHT", box.height());
+        return spot;
+    }
+
+    private static Set<String> places(Set<Spot> track) {
+        return track.stream()
+                .map(spot -> place(Spots.frame(spot), spot.getDoublePosition(0), spot.getDoublePosition(1)))
+                .collect(Collectors.toSet());
+    }
+
+    private static String place(int frame, double x, double y) {
+        return String.format(Locale.ROOT, "%d: %.3f, %.3f", frame, x, y);
+    }
+
+    @Test
+    void ofSpotsWithoutScoresItIsSaidThatNoneIsAsked() {
+        TrackMate trackmate = logAndSort(Films.twoSwimmers(20), 4 * Films.PIXEL_SIZE, 20, 10);
+        StringBuilder said = new StringBuilder();
+        trackmate.getModel().setLogger(new Logger.StringBuilderLogger(said));
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        assertThat(said).contains("2 tracks kept", "The least track score was not asked");
+    }
+
+    @Test
+    void whatToDoIsSaidWhereEveryTrackIsDropped() {
+        TrackMate trackmate = logAndSort(Films.twoSwimmers(20), 4 * Films.PIXEL_SIZE, 20, 21);
+        StringBuilder said = new StringBuilder();
+        trackmate.getModel().setLogger(new Logger.StringBuilderLogger(said));
+        assertThat(trackmate.process()).as(trackmate.getErrorMessage()).isTrue();
+        assertThat(said).contains("0 tracks kept", "2 too short", "lower the least track length");
     }
 
     @Test
