@@ -68,7 +68,8 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
      * Writes all of them or, where one cannot be written, none; files of an earlier run are replaced when these are complete.
      *
      * @param film whose last frame the picture shows
-     * @throws DetectorException when one cannot be written, or the user has changed one of an earlier run meanwhile
+     * @throws DetectorException when one cannot be written; or when those of an earlier run cannot be replaced, as the user
+     *     has changed one meanwhile or another program has it open: then the new ones stay in a folder that the message names
      */
     public void write(TrackingResult result, Film film, Provenance origin) {
         try (StagedFiles staged = new StagedFiles(folder())) {
@@ -82,12 +83,26 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
                 hashes.put(name(file), Sha256.of(staged.of(file)));
             }
             origin.with(hashes).write(staged.of(provenance));
-            checkReplaceable(film);
-            staged.moveTo(all());
+            replaceBy(staged, film);
         } catch (IOException e) {
             throw new DetectorException(
                     "The results cannot be written to %s (%s): make room, close what has them open, or choose another folder, and run again."
                             .formatted(folder(), reason(e)),
+                    e);
+        }
+    }
+
+    private void replaceBy(StagedFiles staged, Film film) {
+        try {
+            checkReplaceable(film);
+            staged.moveTo(all());
+        } catch (DetectorException e) {
+            throw new DetectorException(
+                    "The results of this run were left in %s, since %s".formatted(staged.keep(), e.getMessage()), e);
+        } catch (IOException e) {
+            throw new DetectorException(
+                    "The results of this run were left in %s, since they cannot replace those in %s (%s): close what has these open, and move them there."
+                            .formatted(staged.keep(), folder(), reason(e)),
                     e);
         }
     }

@@ -148,9 +148,19 @@ class ResultFilesTest {
         write(ResultFiles.in(folder, SmallRun.film()));
         ResultFiles again = ResultFiles.in(folder, SmallRun.film());
         Files.writeString(again.mdf(), "corrected by hand");
-        assertThatThrownBy(() -> write(again, TRACK)).hasMessageContaining("film.mdf");
+        assertThatThrownBy(() -> write(again, TRACK))
+                .isInstanceOf(DetectorException.class)
+                .hasMessageContaining("film.mdf is there already")
+                .hasMessageContaining("The results of this run were left in " + kept());
         assertThat(again.mdf()).hasContent("corrected by hand");
-        assertThat(folder.toFile().list()).hasSize(6);
+        assertThat(folder.toFile().list()).hasSize(7);
+        assertThat(kept().toFile().list()).hasSize(6);
+        assertThat(Files.readString(kept().resolve("film.csv"))).hasLineCount(2);
+    }
+
+    /** Where results lie that could not take their places. */
+    private Path kept() {
+        return folder.resolve(folder.toFile().list((in, name) -> name.endsWith(".part"))[0]);
     }
 
     @Test

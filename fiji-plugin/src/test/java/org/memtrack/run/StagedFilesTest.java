@@ -40,14 +40,42 @@ class StagedFilesTest {
     }
 
     @Test
-    void whenOneCannotBeMovedNoneOfTheRunIsLeft() throws Exception {
-        Files.createDirectories(second.resolve("held by another program"));
+    void whenOneCannotBeMovedTheEarlierOnesAreInTheirPlacesAndTheNewOnesCanBeKept() throws Exception {
+        Path nowhere = folder.resolve("gone").resolve("nowhere");
+        Path kept;
         try (StagedFiles staged = new StagedFiles(folder)) {
             Files.writeString(staged.of(first), "new");
-            Files.writeString(staged.of(second), "new too");
+            Files.writeString(staged.of(nowhere), "new too");
+            assertThatThrownBy(() -> staged.moveTo(List.of(first, nowhere))).isInstanceOf(IOException.class);
+            kept = staged.keep();
+        }
+        assertThat(first).hasContent("earlier");
+        assertThat(kept.toFile().list()).containsExactlyInAnyOrder("first", "nowhere");
+        assertThat(kept.resolve("first")).hasContent("new");
+        assertThat(kept.resolve("nowhere")).hasContent("new too");
+    }
+
+    @Test
+    void whatIsNotKeptIsDeletedWhenItCannotBeMoved() throws Exception {
+        try (StagedFiles staged = new StagedFiles(folder)) {
+            Files.writeString(staged.of(first), "new");
             assertThatThrownBy(() -> staged.moveTo(List.of(first, second))).isInstanceOf(IOException.class);
         }
-        assertThat(first).doesNotExist();
-        assertThat(folder.toFile().list()).containsExactly("second");
+        assertThat(first).hasContent("earlier");
+        assertThat(folder.toFile().list()).containsExactly("first");
+    }
+
+    @Test
+    void aFolderThatCannotBeCleanedUpIsNoFailure() throws Exception {
+        StagedFiles staged = new StagedFiles(folder);
+        Files.writeString(staged.of(first), "new");
+        staged.moveTo(List.of(first));
+        // Another program, a virus scanner for one, was faster.
+        Path aside = staged.of(first).getParent();
+        Files.delete(aside.resolve("earlier").resolve("first"));
+        Files.delete(aside.resolve("earlier"));
+        Files.delete(aside);
+        staged.close();
+        assertThat(first).hasContent("new");
     }
 }
