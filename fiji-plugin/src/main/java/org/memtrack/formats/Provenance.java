@@ -12,6 +12,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Stream;
 
 /**
  * Where a result comes from: enough to repeat the run. Written as JSON beside the tracks.
@@ -50,9 +51,10 @@ public record Provenance(
         files = files == null ? Map.of() : files;
     }
 
-    /** The same, of a run that wrote these files. */
-    public Provenance with(Map<String, String> newFiles) {
-        return new Provenance(created, software, film, model, settings, counts, seconds, warnings, newFiles);
+    /** The same, of a run that wrote these files, and told the user these warnings besides. */
+    public Provenance with(Map<String, String> newFiles, List<String> further) {
+        List<String> all = Stream.concat(warnings.stream(), further.stream()).toList();
+        return new Provenance(created, software, film, model, settings, counts, seconds, all, newFiles);
     }
 
     /** Writes it as JSON, all or nothing. */

@@ -27,7 +27,7 @@ import org.memtrack.video.Film;
  * @param csv table, one row a point
  * @param motility table, one row a track
  * @param mdf for MTrackJ
- * @param picture last frame with the tracks, PNG
+ * @param picture last frame with the tracks, PNG; missing when it could not be drawn
  * @param provenance settings, versions, counts and the hashes of the other files, JSON; written last
  */
 public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path picture, Path provenance) {
@@ -66,29 +66,50 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
 
     /**
      * Writes all of them or, where one cannot be written, none; files of an earlier run are replaced when these are complete.
+     * For a picture that cannot be drawn no tracks are given up.
      *
-     * @param film whose last frame the picture shows
+     * @param film whose last frame the picture shows; it is read anew
+     * @return one sentence when the picture is missing
      * @throws DetectorException when one cannot be written; or when those of an earlier run cannot be replaced, as the user
      *     has changed one meanwhile or another program has it open: then the new ones stay in a folder that the message names
      */
-    public void write(TrackingResult result, Film film, Provenance origin) {
+    public Optional<String> write(TrackingResult result, Film film, Provenance origin) {
         try (StagedFiles staged = new StagedFiles(folder())) {
             TrackMateXml.write(staged.of(xml), result.tracked());
             TrackCsv.write(staged.of(csv), result.tracked());
             MotilityCsv.write(staged.of(motility), result.tracked());
             Mdf.write(staged.of(mdf), result.tracked());
-            TrackPicture.of(film, result.tracked()).write(staged.of(picture));
+            Optional<String> undrawn = draw(result, film, staged.of(picture));
             Map<String, String> hashes = new LinkedHashMap<>();
             for (Path file : List.of(xml, csv, motility, mdf, picture)) {
-                hashes.put(name(file), Sha256.of(staged.of(file)));
+                if (Files.exists(staged.of(file))) {
+                    hashes.put(name(file), Sha256.of(staged.of(file)));
+                }
             }
-            origin.with(hashes).write(staged.of(provenance));
+            origin.with(hashes, undrawn.stream().toList()).write(staged.of(provenance));
             replaceBy(staged, film);
+            return undrawn;
         } catch (IOException e) {
             throw new DetectorException(
                     "The results cannot be written to %s (%s): make room, close what has them open, or choose another folder, and run again."
                             .formatted(folder(), reason(e)),
                     e);
+        }
+    }
+
+    /** One sentence when it fails: the film's disk may be gone, or a huge frame be too much for the memory. */
+    private static Optional<String> draw(TrackingResult result, Film film, Path target) {
+        try {
+            TrackPicture.of(film, result.tracked()).write(target);
+            return Optional.empty();
+        } catch (IOException | RuntimeException | OutOfMemoryError e) {
+            System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "No picture", e);
+            return Optional.of(
+                    "The picture of the tracks is missing, since it could not be drawn (%s); all other results are there."
+                            .formatted(
+                                    e instanceof OutOfMemoryError
+                                            ? "the memory is full"
+                                            : reason(e).replaceFirst("\\.$", "")));
         }
     }
 
@@ -182,7 +203,7 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
         return file.getFileName().toString();
     }
 
-    private static String reason(IOException e) {
+    private static String reason(Throwable e) {
         if (e instanceof AccessDeniedException) {
             return "access denied";
         }

@@ -28,7 +28,7 @@ final class StagedFiles implements AutoCloseable {
     }
 
     /**
-     * Moves files to their places, in this order, and does away with those that lay there.
+     * Moves files to their places, in this order, and does away with those that lay there, also where no new one was written.
      *
      * @throws IOException when one cannot be moved, for example as another program has the older one open; the older ones
      *     are then in their places again, any that cannot go back in the folder "earlier" aside, and the new ones aside
@@ -43,7 +43,9 @@ final class StagedFiles implements AutoCloseable {
                 }
             }
             for (Path target : targets) {
-                move(of(target), target, done);
+                if (Files.exists(of(target))) {
+                    move(of(target), target, done);
+                }
             }
         } catch (IOException e) {
             undo(done, earlier, e);

@@ -69,7 +69,8 @@ public final class TrackCommand implements PlugIn {
         List<String> warnings = new ArrayList<>(film.warnings());
         warnings.addAll(request.warningsFor(frameCount));
         warnings.addAll(result.warnings());
-        files.write(result, film, Origin.of(film, result, inForce, warnings));
+        files.write(result, film, Origin.of(film, result, inForce, List.copyOf(warnings)))
+                .ifPresent(warnings::add);
         if (request.overlay() && !GraphicsEnvironment.isHeadless()) {
             TrackOverlay.show(image, film, result.tracked().tracks()).ifPresent(TrackCommand::note);
         }

@@ -12,6 +12,9 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.function.Supplier;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -20,6 +23,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.detection.FrameDetections;
+import org.memtrack.formats.Provenance;
 import org.memtrack.tracking.Track;
 import org.memtrack.tracking.TrackPoint;
 import org.memtrack.video.Film;
@@ -169,8 +173,8 @@ class ResultFilesTest {
         write(files);
         String csv = Files.readString(files.csv());
 
-        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, SmallRun.film()), TRACK))
-                .isInstanceOf(DetectorException.class);
+        assertThatThrownBy(() -> writeWhatIsNoJson(ResultFiles.in(folder, SmallRun.film())))
+                .isInstanceOf(IllegalArgumentException.class);
         assertThat(files.csv()).hasContent(csv);
         assertThat(folder.toFile().list()).hasSize(6);
         write(ResultFiles.in(folder, SmallRun.film()), TRACK);
@@ -178,9 +182,31 @@ class ResultFilesTest {
 
     @Test
     void aFirstRunThatCannotBeWrittenLeavesNothing() throws Exception {
-        assertThatThrownBy(() -> writeWithoutItsLastFrame(ResultFiles.in(folder, SmallRun.film()), TRACK))
-                .isInstanceOf(DetectorException.class);
+        assertThatThrownBy(() -> writeWhatIsNoJson(ResultFiles.in(folder, SmallRun.film())))
+                .isInstanceOf(IllegalArgumentException.class);
         assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void whereTheLastFrameCannotBeReadOrDrawnThePictureAloneIsMissing() throws Exception {
+        Film gone = unreadable(() -> new DetectorException("The film is gone."));
+        ResultFiles files = ResultFiles.in(folder, SmallRun.film());
+        write(files);
+        assertThat(write(files, gone, TRACK))
+                .contains("The picture of the tracks is missing, since it could not be drawn (The film is gone);"
+                        + " all other results are there.");
+        assertThat(Files.readString(files.csv())).hasLineCount(2);
+        assertThat(folder.toFile().list()).hasSize(5).doesNotContain("film.png");
+        Provenance provenance = Provenance.read(files.provenance());
+        assertThat(provenance.files()).containsOnlyKeys("film.xml", "film.csv", "film.motility.csv", "film.mdf");
+        assertThat(provenance.warnings()).singleElement().asString().contains("The film is gone");
+
+        Film huge = unreadable(() -> new OutOfMemoryError("Java heap space"));
+        assertThat(write(ResultFiles.in(folder, SmallRun.film()), huge))
+                .hasValueSatisfying(sentence -> assertThat(sentence).contains("(the memory is full)"));
+        assertThat(write(ResultFiles.in(folder, SmallRun.film()), SmallRun.film()))
+                .isEmpty();
+        assertThat(folder.toFile().list()).hasSize(6);
     }
 
     @Test
@@ -263,31 +289,39 @@ class ResultFilesTest {
         write(files, SmallRun.film(), tracks);
     }
 
-    private static void writeWithoutItsLastFrame(ResultFiles files, Track... tracks) {
+    private static void writeWhatIsNoJson(ResultFiles files) {
         Film film = SmallRun.film();
-        write(
-                files,
-                new Film() {
-                    @Override
-                    public FilmInfo info() {
-                        return film.info();
-                    }
-
-                    @Override
-                    public SampleType sampleType() {
-                        return film.sampleType();
-                    }
-
-                    @Override
-                    public byte[] frame(int frame) {
-                        throw new DetectorException("The film is gone.");
-                    }
-                },
-                tracks);
+        TrackingResult result = SmallRun.result(film, TRACK);
+        files.write(result, film, Origin.of(film, result, Map.of("min_score", Double.NaN), List.of()));
     }
 
-    private static void write(ResultFiles files, Film film, Track... tracks) {
+    /** The film of the small run when its frames can be read no more. */
+    private static Film unreadable(Supplier<Throwable> failure) {
+        Film film = SmallRun.film();
+        return new Film() {
+            @Override
+            public FilmInfo info() {
+                return film.info();
+            }
+
+            @Override
+            public SampleType sampleType() {
+                return film.sampleType();
+            }
+
+            @Override
+            public byte[] frame(int frame) {
+                Throwable thrown = failure.get();
+                if (thrown instanceof Error error) {
+                    throw error;
+                }
+                throw (RuntimeException) thrown;
+            }
+        };
+    }
+
+    private static Optional<String> write(ResultFiles files, Film film, Track... tracks) {
         TrackingResult result = SmallRun.result(film, tracks);
-        files.write(result, film, SmallRun.origin(film, result));
+        return files.write(result, film, SmallRun.origin(film, result));
     }
 }

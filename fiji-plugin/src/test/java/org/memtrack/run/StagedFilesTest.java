@@ -18,11 +18,13 @@ class StagedFilesTest {
 
     private Path first;
     private Path second;
+    private Path nowhere;
 
     @BeforeEach
     void anEarlierRun() throws Exception {
         first = Files.writeString(folder.resolve("first"), "earlier");
         second = folder.resolve("second");
+        nowhere = folder.resolve("gone").resolve("nowhere");
     }
 
     @Test
@@ -41,7 +43,6 @@ class StagedFilesTest {
 
     @Test
     void whenOneCannotBeMovedTheEarlierOnesAreInTheirPlacesAndTheNewOnesCanBeKept() throws Exception {
-        Path nowhere = folder.resolve("gone").resolve("nowhere");
         Path kept;
         try (StagedFiles staged = new StagedFiles(folder)) {
             Files.writeString(staged.of(first), "new");
@@ -59,10 +60,20 @@ class StagedFilesTest {
     void whatIsNotKeptIsDeletedWhenItCannotBeMoved() throws Exception {
         try (StagedFiles staged = new StagedFiles(folder)) {
             Files.writeString(staged.of(first), "new");
-            assertThatThrownBy(() -> staged.moveTo(List.of(first, second))).isInstanceOf(IOException.class);
+            Files.writeString(staged.of(nowhere), "new too");
+            assertThatThrownBy(() -> staged.moveTo(List.of(first, nowhere))).isInstanceOf(IOException.class);
         }
         assertThat(first).hasContent("earlier");
         assertThat(folder.toFile().list()).containsExactly("first");
+    }
+
+    @Test
+    void anEarlierFileGoesAlsoWhereThereIsNoNewOne() throws Exception {
+        try (StagedFiles staged = new StagedFiles(folder)) {
+            Files.writeString(staged.of(second), "new");
+            staged.moveTo(List.of(first, second));
+        }
+        assertThat(folder.toFile().list()).containsExactly("second");
     }
 
     @Test
