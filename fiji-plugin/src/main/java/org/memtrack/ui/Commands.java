@@ -28,11 +28,14 @@ final class Commands {
             LOG.log(System.Logger.Level.DEBUG, "MEMTrack failed", e);
             tell(e.getMessage());
             stopMacro(e.getMessage());
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             // ImageJ would show the stack trace and go on with the macro.
             LOG.log(System.Logger.Level.ERROR, "MEMTrack failed unexpectedly", e);
-            String sentence = "MEMTrack failed unexpectedly (%s): please report this, with the error in the console."
-                    .formatted(e);
+            String sentence = e instanceof OutOfMemoryError
+                    ? "The memory of ImageJ (%d MB) is full: close other images, or give it more in Edit > Options > Memory & Threads, and run again."
+                            .formatted(Runtime.getRuntime().maxMemory() >> 20)
+                    : "MEMTrack failed unexpectedly (%s): please report this, with the error in the console."
+                            .formatted(e);
             tell(sentence);
             stopMacro(sentence);
         } finally {
