@@ -25,9 +25,14 @@ def test_imagej_tiff_tells_pixel_size_and_frame_interval(tmp_path: Path, unit: s
 @pytest.mark.parametrize("unit", ["pixel", "inch"])
 def test_imagej_tiff_in_pixels_or_in_inches_of_a_screen_tells_no_size(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "film.tif"
-    tags = {"axes": "TYX", "unit": unit, "fps": 25.0}
-    tifffile.imwrite(path, FILM, imagej=True, metadata=tags, resolution=(72.0, 72.0))
-    assert check(path, FILM) == Calibration(None, 1 / 25)
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": unit}, resolution=(72.0, 72.0))
+    assert check(path, FILM) == Calibration()
+
+
+def test_the_rate_of_imagejs_animation_is_no_frame_interval(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "fps": 7.0})
+    assert check(path, FILM) == Calibration()
 
 
 def test_ome_tiff_tells_pixel_size_and_time(tmp_path: Path) -> None:

@@ -66,8 +66,15 @@ def open_film(path: Path, given: Calibration | None = None) -> Iterator[OpenedFi
         raise FilmError(
             f"{path.name} is no film this program reads; save it as TIFF or AVI, or give a folder of PNG frames"
         )
+    given = given or Calibration()
     with opening as source:
-        yield OpenedFilm(source, _merged(given or Calibration(), source.calibration), source.notes)
+        notes, interval = source.notes, source.calibration.frame_interval_seconds
+        if path.suffix.lower() in VIDEO_SUFFIXES and interval is not None and given.frame_interval_seconds is None:
+            notes += (
+                f"The frame interval, {interval:.4g} s, is taken from the film's playback rate; if it was recorded at "
+                "another rate, give its interval.",
+            )
+        yield OpenedFilm(source, _merged(given, source.calibration), notes)
 
 
 def _merged(given: Calibration, found: Calibration) -> Calibration:

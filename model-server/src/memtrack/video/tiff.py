@@ -195,9 +195,8 @@ def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> Calibration:
     size = None
     if unit is not None and resolution is not None and resolution.value[0] > 0:
         size = resolution.value[1] / resolution.value[0] * unit
+    # Not by "fps": that is the rate of ImageJ's animation, whatever the film was recorded at.
     interval = float(tags.get("finterval", 0) or 0) * (seconds(str(tags.get("tunit", "sec"))) or 0)
-    if interval <= 0 and float(tags.get("fps", 0) or 0) > 0:
-        interval = 1 / float(tags["fps"])
     return Calibration(size, interval if interval > 0 else None)
 
 
