@@ -254,6 +254,25 @@ def test_frames_without_light_are_told(gel: SimulatedFilm, model: Model) -> None
     assert said[0].endswith("the first is number 4.")
 
 
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        ((4, 95, 120), "At the model's scale the frames have 120 x 95 pixels; .* 96 x 96"),
+        ((4, 96, 120), "share no scene"),
+    ],
+)
+def test_a_drift_that_cannot_be_told_is_said_before_the_first_frame_where_it_is_to_be_undone(
+    shape: tuple[int, int, int], told: str, model: Model
+) -> None:
+    noise = ArrayFilm(np.random.default_rng(0).integers(0, 255, shape, np.uint8))
+    said: list[str] = []
+    next(detect_film(noise, model, DetectionSettings(), lambda *_: None, said.append))
+    assert len(said) == 1
+    assert re.search(told, said[0])
+    list(detect_film(noise, model, DetectionSettings(stabilise=False), lambda *_: None, said.append))
+    assert len(said) == 1
+
+
 @pytest.mark.parametrize("stage", [Stage.STABILISING, Stage.BACKGROUND, Stage.DETECTING])
 def test_a_report_that_raises_stops_the_work(stage: Stage, gel: SimulatedFilm, model: Model) -> None:
     def report(at: Stage, done: int, total: int) -> None:

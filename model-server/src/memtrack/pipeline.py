@@ -67,6 +67,8 @@ def detect_film(
     if isinstance(film, FilledFilm):
         margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
         region = _lit(film, region, margin / scale)
+    if motion.unmeasured:
+        warn(motion.unmeasured)
     done, count = 0, film.frame_count
     if motion.unlit:
         warn(

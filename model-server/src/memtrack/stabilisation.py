@@ -33,11 +33,17 @@ SHARED_SCENE = ((0.5, 0.76), (0.25, 0.95))
 each other. The second way is for noise or a passing body that outshines the scene in single frames. 35 of 36 simulated
 films without their background, whose noise may line up by a drift that is none, are let through neither way, and 16 of
 459 others."""
+NO_SHARED_SCENE = (
+    "The frames share no scene, as where nothing but cells is seen, so no drift of the stage could be told, "
+    "and none was undone."
+)
 REFERENCE_FRAMES = 25
 LEAST_LIKENESS = 0.3
 """Correlation with the reference from which an image shows the same scene; by chance two differ by up to a fifth."""
 LOST_LIKENESS = 0.4
 """Share of a film's usual likeness below which a frame, a dark one for example, does not show the scene."""
+LEAST_EDGE_PX = 4 * MIN_EDGE
+"""Drift is looked for at a quarter of the size first, in frames as wide and high as this."""
 FIRST_FRAMES = 5
 """Of these any may turn out to be the first one that shows the scene."""
 
@@ -48,13 +54,15 @@ class FilmMotion:
     that brings the frame to the film's usual brightness. `ceiling`: the highest grey level, after that correction, that
     all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken.
     `pattern`: grey levels that the camera adds to every frame, None for none. `unlit`: frames so dark or so bright that
-    they hold nothing to find, as while the lamp is off."""
+    they hold nothing to find, as while the lamp is off. `unmeasured`: why no drift was measured though it was wanted, a
+    sentence for the user; empty where it was, or was not wanted."""
 
     drift: Float64[np.ndarray, "frame 2"]
     gain: Float64[np.ndarray, " frame"]
     ceiling: float = math.inf
     pattern: Image | None = None
     unlit: frozenset[int] = frozenset()
+    unmeasured: str = ""
 
     def corrected(self, values: Image, index: int, rows: slice = slice(None)) -> Image:
         """Frame `index`, or some rows of it, as an even lamp and a clean camera would have it taken; works in place."""
@@ -76,7 +84,13 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
         FilmError: a frame holds a NaN or an infinite value.
     """
     count = film.frame_count
-    shrinks = stabilise and count > 1 and min(film.height, film.width) >= 4 * MIN_EDGE
+    shrinks, unmeasured = stabilise and count > 1, ""
+    if shrinks and min(film.height, film.width) < LEAST_EDGE_PX:
+        shrinks = False
+        unmeasured = (
+            f"At the model's scale the frames have {film.width} x {film.height} pixels; a drift of the stage is undone "
+            f"from {LEAST_EDGE_PX} x {LEAST_EDGE_PX} pixels on, so none was."
+        )
     passes = 2 if shrinks else 1
     means, brightest = np.empty(count), -math.inf
     chain = _Chain()
@@ -94,10 +108,13 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
                 drift[i] = chain.add(small) * 4
             report(i + 1, passes * count)
     if shrinks:
-        drift = _refine(film, drift, report, threads)
+        refined = _refine(film, drift, report, threads)
+        drift, unmeasured = (np.zeros_like(drift), NO_SHARED_SCENE) if refined is None else (refined, "")
     gain, unlit = _gains(means)
     # A few flashes do not lower the ceiling of the whole film.
-    return FilmMotion(drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit)
+    return FilmMotion(
+        drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit, unmeasured=unmeasured
+    )
 
 
 def _summary(values: Frame, shrink: int | None) -> tuple[float, float, Float32[np.ndarray, "small_h small_w"] | None]:
@@ -121,7 +138,8 @@ def _gains(means: Float64[np.ndarray, " frame"]) -> tuple[Float64[np.ndarray, " 
 
 def _refine(
     film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress, threads: int
-) -> Float64[np.ndarray, "n 2"]:
+) -> Float64[np.ndarray, "n 2"] | None:
+    """The drift measured anew, at half the size; None where the frames share no scene to tell it by."""
     count = film.frame_count
     chosen = np.unique(np.linspace(0, count - 1, REFERENCE_FRAMES).astype(int))
     # The reference covers the field of the middle of the drift, where most frames overlap it.
@@ -144,7 +162,7 @@ def _refine(
             report(count + i + 1, 2 * count)
     shared = any(np.median(alike) >= least and repeated >= enough for least, enough in SHARED_SCENE)
     if np.median(errors) * 2 > AGREEMENT_PX or not shared:
-        return np.zeros_like(drift)
+        return None
     lost = (errors * 2 > 4 * AGREEMENT_PX) | (alike < LOST_LIKENESS * np.median(alike))
     if lost.any() and not lost.all():
         good = np.flatnonzero(~lost)

@@ -119,8 +119,9 @@ def test_extreme_films_go_through(server: RunningServer, film: np.ndarray) -> No
 def test_what_only_the_frames_tell_stands_in_the_summary(server: RunningServer) -> None:
     film = np.full((24, 64, 64), 100, np.uint8)
     film[7] = 2
-    assert "the first is number 8" in server.detect(film).summary[0].warnings[0]
-    assert not server.detect(film[:7]).summary[0].warnings
+    assert "the first is number 8" in server.detect(film, no_stabilisation=True).summary[0].warnings[0]
+    assert not server.detect(film[:7], no_stabilisation=True).summary[0].warnings
+    assert "64 x 64 pixels" in server.detect(film[:7]).summary[0].warnings[0]
 
 
 def test_an_all_zero_film_has_no_detections(server: RunningServer) -> None:
