@@ -23,7 +23,7 @@ def test_a_page_that_cannot_be_decoded_is_refused_with_its_frame(tmp_path: Path)
     content = bytearray(path.read_bytes())
     content[place : place + 8] = b"\xff" * 8
     path.write_bytes(content)
-    with open_film(path) as film, pytest.raises(FilmError, match=r"frame 3 of film\.tif cannot be read as TIFF"):
+    with open_film(path) as film, pytest.raises(FilmError, match=r"frame 4 of film\.tif cannot be read as TIFF"):
         frames(film)
 
 
@@ -33,7 +33,7 @@ def test_an_unknown_compression_is_refused_in_one_sentence(tmp_path: Path) -> No
     with tifffile.TiffFile(path, mode="r+") as file:
         file.pages.first.tags["Compression"].overwrite(tifffile.COMPRESSION.LERC)
     with (
-        pytest.raises(FilmError, match=r"frame 0 of film\.tif cannot be read .*LERC.*; save the film again"),
+        pytest.raises(FilmError, match=r"frame 1 of film\.tif cannot be read .*LERC.*; save the film again"),
         open_film(path),
     ):
         pass

@@ -59,5 +59,5 @@ def test_a_folder_of_films_is_refused(tmp_path: Path) -> None:
 def test_frames_of_different_sizes_are_refused(tmp_path: Path) -> None:
     for i, size in enumerate((5, 6)):
         (tmp_path / f"{i}.png").write_bytes(cv2.imencode(".png", np.zeros((4, size), np.uint8))[1].tobytes())
-    with open_film(tmp_path) as film, pytest.raises(FilmError, match="frame 1 has 6 x 4 pixels, frame 0 5 x 4"):
+    with open_film(tmp_path) as film, pytest.raises(FilmError, match="frame 2 has 6 x 4 pixels, frame 1 5 x 4"):
         film.frame(1)

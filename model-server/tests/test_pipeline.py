@@ -94,7 +94,7 @@ def test_the_model_for_crowds_takes_over_in_a_crowd_and_finds_more_of_it(model: 
     crowded = judge(made, by_default)
     assert taken == [model.crowds]
     assert len(said) == 1
-    assert re.match(r"In frame 21 there are \d+ bacteria, .* \d+ square pixels: model crowded 1, ", said[0])
+    assert re.match(r"In frame 21 of 40 there are \d+ bacteria, .* \d+ square pixels: model crowded 1, ", said[0])
     assert crowded[1] > usual[1] + 0.1
     assert crowded[0] > 0.95
     for one, other in zip(by_default, found(made.film, load_model("crowded", "1")), strict=True):
@@ -202,7 +202,7 @@ def test_stuck_pixels_do_not_swim_through_a_drifting_scene(model: Model) -> None
 def test_infinite_values_are_refused(model: Model) -> None:
     frames = np.zeros((3, 50, 50), np.float32)
     frames[1, 2, 3] = np.inf
-    with pytest.raises(FilmError, match="frame 1 holds values that are not finite"):
+    with pytest.raises(FilmError, match="frame 2 of the 3 used holds values that are not finite"):
         run(ArrayFilm(frames), model)
 
 
@@ -251,7 +251,7 @@ def test_frames_without_light_are_told(gel: SimulatedFilm, model: Model) -> None
     list(detect_film(ArrayFilm(dark), model, DetectionSettings(), lambda *_: None, said.append))
     assert len(said) == 1
     assert said[0].startswith(f"2 of {len(dark)} frames are far darker")
-    assert said[0].endswith("the first is number 4.")
+    assert said[0].endswith(f"the first is number 4 of the {len(dark)}.")
 
 
 @pytest.mark.parametrize(

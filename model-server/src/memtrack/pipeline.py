@@ -73,7 +73,7 @@ def detect_film(
     if motion.unlit:
         warn(
             f"{len(motion.unlit)} of {count} frames are far darker or brighter than the others and are not used; the "
-            f"first is number {min(motion.unlit) + 1}."
+            f"first is number {min(motion.unlit) + 1} of the {count}."
         )
 
     def alive() -> None:
@@ -100,8 +100,8 @@ def detect_film(
         crowd = crowd_in(usual, lambda: found(for_crowds, middle, for_crowds.candidates(seen)), area)
         if crowd:
             warn(
-                f"In frame {middle + 1} there are {crowd} bacteria, one for every {area / crowd:.0f} square pixels: "
-                f"model {model.card.crowds}, which is for crowds, takes over from {model.card.name} "
+                f"In frame {middle + 1} of {count} there are {crowd} bacteria, one for every {area / crowd:.0f} "
+                f"square pixels: model {model.card.crowds}, which is for crowds, takes over from {model.card.name} "
                 f"{model.card.version}."
             )
             taken(model.crowds)

@@ -100,8 +100,8 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
         for i, (mean, highest, small) in enumerate(summaries):
             if not math.isfinite(mean):
                 raise FilmError(
-                    f"frame {i} holds values that are not finite (NaN or infinity): replace them, for example with "
-                    "Process > Math > NaN Background, and run again"
+                    f"frame {i + 1} of the {count} used holds values that are not finite (NaN or infinity): replace "
+                    "them, for example with Process > Math > NaN Background, and run again"
                 )
             means[i], brightest = mean, max(brightest, highest)
             if small is not None:

@@ -31,7 +31,7 @@ def test_values_that_are_not_finite_are_refused(server: RunningServer, bad: floa
     film[2, 3, 4] = bad
     status, sentence = refusal(server, requests(film))
     assert status is grpc.StatusCode.INVALID_ARGUMENT
-    assert "frame 2" in sentence
+    assert "frame 3 of the 4 used" in sentence
 
 
 def test_a_stream_that_does_not_add_up_is_refused(server: RunningServer) -> None:

@@ -33,7 +33,7 @@ def open_container(path: Path) -> Iterator[Source]:
             film.append(first.tobytes())
             for frame in decoder:
                 if frame.shape != first.shape:
-                    raise FilmError(f"frame {film.frame_count} of {path.name} has another size than frame 0")
+                    raise FilmError(f"frame {film.frame_count + 1} of {path.name} has another size than frame 1")
                 film.append(frame.tobytes())
                 film.geometry = replace(film.geometry, frame_count=film.frame_count + 1)
             notes = decoder.notes + _missing(path, film.frame_count, decoder.promised)

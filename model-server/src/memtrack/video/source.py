@@ -37,8 +37,8 @@ class Source:
         frame = grey(self.read(index))
         if frame.shape != (self.height, self.width):
             raise FilmError(
-                f"frame {index} has {frame.shape[1]} x {frame.shape[0]} pixels, frame 0 {self.width} x {self.height}; "
-                "all frames of a film need one size"
+                f"frame {index + 1} has {frame.shape[1]} x {frame.shape[0]} pixels, frame 1 {self.width} x "
+                f"{self.height}; all frames of a film need one size"
             )
         return frame
 

@@ -145,7 +145,7 @@ def _reader(file: tifffile.TiffFile, series: tifffile.TiffPageSeries) -> Callabl
         samples = math.prod(plane)
 
         def read_contiguous(index: int) -> Shaped[np.ndarray, "..."]:
-            with lock, _readable(f"frame {index} of {file.filename}"):
+            with lock, _readable(f"frame {index + 1} of {file.filename}"):
                 found = file.filehandle.read_array(dtype, samples, start + index * samples * dtype.itemsize)
             return found.reshape(plane)
 
@@ -155,10 +155,10 @@ def _reader(file: tifffile.TiffFile, series: tifffile.TiffPageSeries) -> Callabl
     known = codec.compression in tifffile.TIFF.DECOMPRESSORS and codec.predictor in tifffile.TIFF.UNPREDICTORS
 
     def read_page(index: int) -> Shaped[np.ndarray, "..."]:
-        with lock, _readable(f"frame {index} of {file.filename}"):
+        with lock, _readable(f"frame {index + 1} of {file.filename}"):
             page = series.pages[index] if index < len(series.pages) else None
             if page is None:
-                raise FilmError(f"frame {index} is missing in {file.filename}; save the film again from Fiji")
+                raise FilmError(f"frame {index + 1} is missing in {file.filename}; save the film again from Fiji")
             return page.asarray() if known else _decoded_by_opencv(file, page)
 
     return read_page
