@@ -10,15 +10,16 @@ import tifffile
 
 from memtrack.cli import simulate as command
 from memtrack.errors import SettingsError
-from memtrack.motility import motility_of
+from memtrack.film import Calibration
+from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.simulation import scenes
 from memtrack.simulation.families import FAMILIES, HELD_OUT, draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.simulation.optics import Look, apparent_centre, draw
 from memtrack.simulation.recipe import Recipe
-from memtrack.simulation.swimming import Gait, World, peak_diffusivity, swim
+from memtrack.simulation.swimming import Gait, World, path_diffusivity, swim
 from memtrack.simulation.truth import _smoothed_norm
-from memtrack.tracks import Motility
+from memtrack.tracks import Motility, TrackTable
 from memtrack.tracks_io import read_tracks
 
 LOOK = Look(length=9, width=4, contrast=100, halo=0.2, halo_radius=11, flip=0, relief=0, relief_angle=0)
@@ -146,17 +147,24 @@ def test_classes_are_the_papers(value: float, expected: Motility) -> None:
 def test_brownian_motion_has_its_diffusivity_and_a_straight_run_more_at_longer_lags() -> None:
     rng = np.random.default_rng(0)
     walk = np.cumsum(rng.normal(0, np.sqrt(2 * 0.4 * 0.02), (20000, 2)), axis=0)
-    assert peak_diffusivity(walk[:, :], 0.02) == pytest.approx(0.4, rel=0.35)
+    assert path_diffusivity(walk[:, :], 0.02) == pytest.approx(0.4, rel=0.35)
     run = np.stack([np.arange(101) * 0.1, np.zeros(101)], axis=1)
-    assert peak_diffusivity(run, 0.02) == pytest.approx((0.1 * 25) ** 2 / (4 * 25 * 0.02))
-    assert peak_diffusivity(run[:1], 0.02) == 0
+    assert path_diffusivity(run, 0.02) == pytest.approx((0.1 * 25) ** 2 / (4 * 25 * 0.02))
+    assert path_diffusivity(run[:1], 0.02) == 0
+
+
+def test_the_class_in_the_truth_is_of_shorter_lags_than_that_of_a_track() -> None:
+    x = np.arange(101) * 0.1
+    track = TrackTable.of(np.arange(101), 0, x, 0.0, calibration=Calibration(1.0, 0.02))
+    path = path_diffusivity(np.stack([x, np.zeros(101)], axis=1), 0.02)
+    assert peak_diffusivity(track, track.calibration) == pytest.approx(2 * path)
 
 
 def test_each_gait_moves_as_its_name_says() -> None:
     world = World(200, 200, 300, 0.25, 1 / 60, 15.0, 0.5)
     rng = np.random.default_rng(4)
     spread = {
-        gait: np.median([peak_diffusivity(swim(gait, world, rng).xy * 0.25, 1 / 60) for _ in range(15)])
+        gait: np.median([path_diffusivity(swim(gait, world, rng).xy * 0.25, 1 / 60) for _ in range(15)])
         for gait in Gait
     }
     assert spread[Gait.STUCK] == 0

@@ -160,8 +160,13 @@ def _depth(gait: Gait, world: World, rng: np.random.Generator) -> Float64[np.nda
     return _confined(n, dt, world.depth_spread, slow * rng.uniform(0.5, 2.0), rng)[:, 0]
 
 
-def peak_diffusivity(xy_um: Float64[np.ndarray, "n 2"], frame_interval_seconds: float) -> float:
-    """The paper's motility measure: the largest MSD(tau) / (4 tau) in um^2/s over lags up to a quarter of the track."""
+def path_diffusivity(xy_um: Float64[np.ndarray, "n 2"], frame_interval_seconds: float) -> float:
+    """The paper's motility measure of the path itself: the largest MSD(tau) / (4 tau) in um^2/s, over lags from one
+    frame up to a quarter of the path.
+
+    Not that of a track, `memtrack.motility.peak_diffusivity`, whose lags begin at 0.1 s and of which a floor is taken
+    away: a path has no error of position. Another measure would give other labels to films that are made already.
+    """
     lags = np.unique(np.geomspace(1, max(1, (len(xy_um) - 1) // 4), 12).astype(int))
     return max(
         (

@@ -14,7 +14,7 @@ from memtrack.motility import motility_of
 from memtrack.simulation.bacteria import bacteria, draw_bacterium
 from memtrack.simulation.optics import apparent_centre
 from memtrack.simulation.recipe import Recipe
-from memtrack.simulation.swimming import Gait, Path, peak_diffusivity
+from memtrack.simulation.swimming import Gait, Path, path_diffusivity
 from memtrack.tracks import TrackTable
 
 Medium = Callable[[int], Float32[np.ndarray, "h w"]]
@@ -57,7 +57,7 @@ def truth_of(
         if path.gait is Gait.TETHERED:  # it passes through its own median, and is there all the same
             ratio = np.full_like(ratio, np.sqrt(np.square(ratio).mean()))
         known = inside & (ratio >= VISIBLE) & (path.gait is not Gait.STUCK)
-        diffusivity = peak_diffusivity(path.xy * recipe.pixel_size_um, recipe.frame_interval_seconds)
+        diffusivity = path_diffusivity(path.xy * recipe.pixel_size_um, recipe.frame_interval_seconds)
         motility = int(motility_of(diffusivity))
         for i in np.flatnonzero(near):
             dx, dy = apparent_centre(look, path.heading[i], path.depth[i])
