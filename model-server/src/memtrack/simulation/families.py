@@ -118,8 +118,6 @@ FAMILIES: dict[str, Callable[[Recipe, np.random.Generator], Recipe]] = {
     "packed": _varied(variations.packed, 0.5),
     "subtracted": _varied(variations.subtracted, 0.5),
 }
-HELD_OUT = ("foam", "granular")
-"""Families that only validation films are drawn from."""
 
 
 def _scale(rng: np.random.Generator, low: float, high: float) -> float:
