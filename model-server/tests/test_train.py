@@ -9,6 +9,7 @@ import torch
 from memtrack.errors import ModelNotFoundError, SettingsError
 from memtrack.motion import MOTION
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
+from memtrack.training.figures import LOSSES
 from memtrack.training.films import SimulatedSet
 from memtrack.training.optimise import Workspace, optimise
 from memtrack.training.recipe import train
@@ -49,6 +50,19 @@ def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> 
     assert set(whole) == set(resumed)
     for name, value in whole.items():
         torch.testing.assert_close(value, resumed[name])
+
+
+def test_the_loss_curve_of_a_resumed_training_has_each_iteration_once(tmp_path: Path) -> None:
+    config, films = small_training()
+    losses = tmp_path / LOSSES
+    losses.write_text("of a training before\n9,1,1\n")
+    optimise(config, films, Workspace(tmp_path), "cpu", silent)
+    header, last = losses.read_text().splitlines()
+    losses.write_text(f"{header}\n2,0.5,0.001\n3,0.4,0.001\n5,0.3,0.001\n")  # interrupted after its checkpoint of 3
+    optimise(config, films, Workspace(tmp_path), "cpu", silent)
+    first, second, third = losses.read_text().splitlines()[1:]
+    assert [first, second] == ["2,0.5,0.001", "3,0.4,0.001"]
+    assert third.split(",")[0] == last.split(",")[0] == "6"
 
 
 def test_a_checkpoint_of_another_recipe_is_refused_before_films_are_made(tmp_path: Path) -> None:

@@ -133,8 +133,7 @@ def optimise(
         loss=config.loss,
     )
     first = _resume(read_checkpoint(config, workspace), net, average, optimiser, batches)
-    if first == 0:
-        (workspace.folder / LOSSES).unlink(missing_ok=True)
+    _forget_losses(workspace.folder / LOSSES, first)
     kind = device.split(":")[0]
     short = settings.bfloat16 and computes_bfloat16(kind)
     losses: list[float] = []
@@ -251,6 +250,16 @@ def _resume(
     optimiser.load_state_dict(state["optimiser"])
     batches.difficulty = state["difficulty"].numpy()
     return int(state["done"])
+
+
+def _forget_losses(path: Path, done: int) -> None:
+    """Drops the rows after iteration `done`, which are made anew."""
+    lines = path.read_bytes().splitlines(keepends=True) if path.is_file() else []
+    kept = [line for line in lines[1:] if int(line.split(b",")[0]) <= done]
+    if kept:
+        path.write_bytes(b"".join(lines[:1] + kept))
+    else:
+        path.unlink(missing_ok=True)
 
 
 def _append(path: Path, iteration: int, loss: float, rate: float) -> None:
