@@ -115,9 +115,10 @@ def detect_film(
 
 
 def mended(film: Film) -> Film:
-    """`film` as every later step sees it, in training too: defective pixels replaced and blank parts filled.
+    """`film` as every later step sees it: defective pixels replaced and blank parts filled.
 
-    The same object where there are none. Reads up to 24 frames twice.
+    A user's films are mended in training, too; simulated ones, captions and all, are learnt from as they are. The same
+    object where there is nothing to mend. Reads up to 24 frames twice.
     """
     return without_blanks(without_defects(film))
 
