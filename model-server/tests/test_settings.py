@@ -4,6 +4,7 @@
 import pytest
 
 from memtrack.errors import SettingsError
+from memtrack.models import load_model
 from memtrack.settings import DetectionSettings
 
 
@@ -22,3 +23,12 @@ from memtrack.settings import DetectionSettings
 def test_settings_out_of_range_are_refused_with_their_value(settings: dict[str, object], message: str) -> None:
     with pytest.raises(SettingsError, match=message):
         DetectionSettings(**settings)  # type: ignore[arg-type]
+
+
+def test_a_greatest_size_that_would_drop_every_box_of_the_model_is_refused() -> None:
+    card = load_model().card
+    for size in (20.0, 30.0):
+        said = f"max_size_px is {size:g}, but all boxes of model default {card.version} have 30 pixels .* more than 30"
+        with pytest.raises(SettingsError, match=said):
+            DetectionSettings(max_size_px=size).pruner(card)
+    assert DetectionSettings(max_size_px=30.5).pruner(card).max_size_px == 30.5

@@ -21,7 +21,8 @@ class DetectionSettings:
     model, version: of the registry; version None is the newest.
     criterion: which of the model's thresholds to use, 'max_f1' as in the plug-in, or 'max_precision' as in the paper.
     thresholds: lowest score a level (low, medium, high), each 0 to 1; overrides the criterion.
-    max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where boxes are 30.
+    max_size_px: wider or higher boxes are dropped; 35 in the paper, counted at the model's scale, where all boxes of a
+        model are of one size (30 in those shipped): above that it drops none, and nothing else is taken (see `pruner`).
     nms_iou: of boxes that overlap more only the best stays; 0.7 in the paper.
     stabilise: take stage drift out before the median.
     resting: find bacteria that rest all through the film, too, and debris that looks like them (`memtrack.resting`).
@@ -59,5 +60,15 @@ class DetectionSettings:
             raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
 
     def pruner(self, card: ModelCard) -> PrunerSettings:
-        """What is dropped of a model's candidates at its scale: by the thresholds given, or the criterion's."""
+        """What is dropped of a model's candidates at its scale: by the thresholds given, or the criterion's.
+
+        Raises:
+            SettingsError: it would be all of them, as the model's boxes are not below `max_size_px`.
+        """
+        box = card.decoder.box_size_px
+        if self.max_size_px <= box:  # equal ones would be dropped by chance, as their edges are rounded
+            raise SettingsError(
+                f"max_size_px is {self.max_size_px:g}, but all boxes of model {card.name} {card.version} have {box:g} "
+                f"pixels and would be dropped: give more than {box:g}"
+            )
         return PrunerSettings(self.thresholds or card.thresholds[self.criterion], self.max_size_px, self.nms_iou)

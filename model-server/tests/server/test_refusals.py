@@ -66,6 +66,12 @@ def test_a_pixel_size_that_cannot_be_is_refused_before_the_film_is_sent(server: 
     assert "a frame of 8000 x 4000 pixels, enlarged 2.85 times" in sentence
 
 
+def test_a_greatest_size_that_would_drop_every_box_is_refused_before_the_film_is_sent(server: RunningServer) -> None:
+    status, sentence = refusal(server, [pb.DetectFilmRequest(header=header(noise(3, 20, 30), max_size_px=20))])
+    assert status is grpc.StatusCode.INVALID_ARGUMENT
+    assert sentence.startswith("max_size_px is 20, but all boxes of model default ")
+
+
 def test_a_chunk_of_one_mebibyte_is_taken_and_one_byte_more_is_not(server: RunningServer) -> None:
     limit = 1 << 20
     row = np.zeros((1, 1, limit + 1), np.uint8)

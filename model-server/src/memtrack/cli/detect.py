@@ -38,7 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--criterion", choices=[c.replace("_", "-") for c in CRITERIA], default=default.criterion.replace("_", "-"),
         help="which of the model's thresholds to use (default: %(default)s)")  # fmt: skip
     add("--thresholds", metavar="LOW,MEDIUM,HIGH", help="lowest score kept a level, instead")
-    add("--max-size-px", type=float, default=default.max_size_px, help="greatest box (default: %(default)s)")
+    add("--max-size-px", type=float, default=default.max_size_px, help="greatest box at the model's scale, more "
+        "than all boxes of the model have, 30 in those shipped (default: %(default)s)")  # fmt: skip
     add("--nms-iou", type=float, default=default.nms_iou, help="greatest overlap (default: %(default)s)")
     add("--no-stabilisation", action="store_true", help="do not undo the drift of the stage")
     add("--resting", action="store_true", help="find bacteria that never move, too, and debris like them")
@@ -57,6 +58,7 @@ def run(options: argparse.Namespace) -> int:
     check_folder_of(options.out)
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
+    settings.pruner(model.card)  # refused before the film is read, if at all
     with open_film(options.film, Calibration(options.pixel_size_um, options.frame_interval_s)) as film:
         notes = [*film.notes, *caveats(film, model, settings)]
         _say(notes)

@@ -90,7 +90,7 @@ public enum TrackOption {
             "Greatest size (px)",
             Kind.NUMBER,
             "",
-            "wider or taller boxes are dropped, pixels at the model's scale; 35 if left out"),
+            "wider or taller boxes are dropped, pixels at the model's scale, where its own are 30; 35 if left out"),
     NMS_IOU(
             "nms_iou",
             "Greatest overlap (IoU)",
