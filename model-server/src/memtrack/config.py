@@ -81,7 +81,7 @@ class ServerConfig:
         if not self.is_local and (self.tls_certificate is None or not self.token):
             raise SettingsError(
                 f"{self.host} can be reached from other machines, which needs TLS and a token; "
-                "add --tls-cert, --tls-key and --token-from-stdin, or listen on 127.0.0.1"
+                "add --tls-cert, --tls-key and --token-file, or listen on 127.0.0.1"
             )
 
     @property

@@ -115,6 +115,32 @@ def test_other_machines_are_let_in_only_with_tls_and_a_token(host: str) -> None:
     assert "needs TLS" in _refusal("--host", host, "--token-from-stdin", line="token\n")
 
 
+def test_a_token_from_a_file_is_asked_for_and_the_server_goes_on_without_standard_input(
+    spool_folder: Path, tmp_path: Path
+) -> None:
+    file = tmp_path / "token"
+    file.write_text(f"{TOKEN}\na second line\n", encoding="utf-8")
+    with RunningServer(spool_folder, "--token-file", str(file), token=None) as server:
+        assert server.process.stdin is not None
+        server.process.stdin.close()
+        info, asked = server.server.GetServerInfo, server_pb2.GetServerInfoRequest()
+        with pytest.raises(grpc.RpcError, match="the token is missing or wrong"):
+            info(asked, timeout=10)
+        assert info(asked, metadata=[("authorization", f"Bearer {TOKEN}")], timeout=10).protocol == 1
+        server.process.terminate()
+        assert server.process.wait(10) == 0
+
+
+def test_a_token_file_without_a_token_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "token"
+    assert f"cannot read the token file {file}: No such file" in _refusal("--token-file", str(file))
+    for content in (b"", b"\ntoken\n", "token".encode("utf-16")):
+        file.write_bytes(content)
+        said = f"no token is in {file}; write it there as the first line"
+        assert said in _refusal("--token-file", str(file))
+    assert "not allowed with" in _refusal("--token-file", str(file), "--token-from-stdin")
+
+
 def test_a_port_in_use_is_said(spool_folder: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))

@@ -19,8 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--host", default=config.host, help="address to listen on (default: %(default)s, this machine only)")
     add("--port", type=int, default=config.port, help="port to listen on; 0, the default, takes any free one")
-    add("--token-from-stdin", action="store_true", help="read the token callers must send from the first line of "
+    token = parser.add_mutually_exclusive_group().add_argument
+    token("--token-from-stdin", action="store_true", help="read the token callers must send from the first line of "
         "standard input, and end when standard input is closed")  # fmt: skip
+    token("--token-file", type=Path, metavar="FILE", help="read that token from the first line of a file, and go on "
+        "when standard input is closed")  # fmt: skip
     add("--parent-pid", type=int, help="end when this process does")
     add("--tls-cert", type=Path, help="certificate chain in PEM; needed on an address other machines can reach")
     add("--tls-key", type=Path, help="private key in PEM")
@@ -43,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     config = ServerConfig(
         host=options.host,
         port=options.port,
-        token=_token() if options.token_from_stdin else None,
+        token=_token(options),
         tls_certificate=options.tls_cert,
         tls_key=options.tls_key,
         spool_folder=options.spool_folder,
@@ -57,8 +60,26 @@ def run(options: argparse.Namespace) -> int:
     return serve(config, watch_input=options.token_from_stdin)
 
 
-def _token() -> str:
+def _token(options: argparse.Namespace) -> str | None:
+    """What callers must send; None lets every program of this machine in."""
+    if options.token_file is not None:
+        return _token_in(options.token_file)
+    if not options.token_from_stdin:
+        return None
     token = sys.stdin.readline().strip()
     if not token:
         raise SettingsError("no token came on standard input; write it there as the first line")
+    return token
+
+
+def _token_in(file: Path) -> str:
+    try:
+        with file.open(encoding="utf-8-sig") as lines:
+            token = lines.readline().strip()
+    except OSError as error:
+        raise SettingsError(f"cannot read the token file {file}: {error.strerror}; give a file with a token") from error
+    except UnicodeDecodeError:
+        token = ""
+    if not token:
+        raise SettingsError(f"no token is in {file}; write it there as the first line, in plain text")
     return token
