@@ -101,7 +101,7 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
             if not math.isfinite(mean):
                 raise FilmError(
                     f"frame {i + 1} of the {count} used holds values that are not finite (NaN or infinity): replace "
-                    "them, for example with Process > Math > NaN Background, and run again"
+                    "them, NaN with Process > Noise > Remove NaNs, infinity with Remove Outliers, and run again"
                 )
             means[i], brightest = mean, max(brightest, highest)
             if small is not None:
