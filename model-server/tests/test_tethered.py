@@ -13,6 +13,7 @@ from memtrack.tethered import SAMPLES, without_tethered
 
 NOISE = 2.0
 HELD, DEBRIS = (60, 50), ((140, 90), (40, 110), (150, 30))
+DEEPER = ((100, 25), (95, 105), (175, 62), (25, 25), (120, 60))
 FRAMES = 80
 FONT = cv2.FONT_HERSHEY_SIMPLEX
 
@@ -26,21 +27,25 @@ def film_of(
     debris: bool = True,
     clock: bool = False,
     grain: float = 0.0,
+    layers: bool = False,
     frames: int = FRAMES,
 ) -> ArrayFilm:
-    """Water with a bacterium that wiggles in its place by `wiggle` px, debris that `shake` moves in one rhythm, a stage
-    that drifts, swimmers that pass over the debris, and digits that run in place of some of it."""
+    """Water with a bacterium that wiggles in its place by `wiggle` px, debris that `shake` moves in one rhythm, more of
+    it in a deeper layer with a rhythm of its own, a stage that drifts, swimmers that pass over the debris, and digits
+    that run in place of some of it."""
     rng = np.random.default_rng(3)
     h, w = 140, 200
     texture = cv2.GaussianBlur(rng.normal(0, 1, (h, w + 60)).astype(np.float32), (0, 0), 3) * 10 * grain
     y, x = np.mgrid[:h, :w].astype(np.float32)
     rhythm, stacked = rng.normal(0, 1, frames), []
+    deeper = np.random.default_rng(4).normal(0, 1, frames)
     for i in range(frames):
         left = round(drift * i)
         image = 120 + texture[:, 60 - left : 60 - left + w]
         places = [(np.add(HELD, rng.normal(0, wiggle, 2)), 40.0)]
         aside = np.multiply(shake * rhythm[i], [1, 0.5])
         places += [(place + aside, 40.0) for place in DEBRIS[clock:] if debris]
+        places += [(place + np.multiply(shake * deeper[i], [-0.4, 1]), 40.0) for place in DEEPER if layers]
         places += [(np.array([(k * 40 + 3 * i) % 260 - 30, DEBRIS[k % 3][1]]), 60.0) for k in range(swimmers)]
         for (at_x, at_y), contrast in places:
             image = image + contrast * np.exp(-((x - at_x - left) ** 2 / 8 + (y - at_y) ** 2 / 5))
@@ -61,10 +66,10 @@ def told(film: ArrayFilm, noise: float = NOISE) -> tuple[Background, Background,
     return before, without_tethered(before, film, motion, range(film.frame_count), noise), motion
 
 
-def heights(background: Background) -> list[float]:
+def heights(background: Background, debris: tuple[tuple[int, int], ...] = DEBRIS) -> list[float]:
     """How far the bacterium and the pieces of debris stand out of a background."""
     left, top = background.origin
-    return [float(background.median[y - top, x - left]) - 120 for x, y in (HELD, *DEBRIS)]
+    return [float(background.median[y - top, x - left]) - 120 for x, y in (HELD, *debris)]
 
 
 @pytest.mark.parametrize("wiggle", [0.3, 0.6, 1.0])
@@ -93,9 +98,11 @@ def test_the_background_is_the_same_where(film: dict[str, Any]) -> None:
     assert after is before
 
 
-def test_what_the_medium_shakes_in_one_rhythm_is_part_of_it() -> None:
-    shaken, after, _ = told(film_of(wiggle=0.6, shake=0.6))
-    np.testing.assert_array_equal(heights(after)[1:], heights(shaken)[1:])
+@pytest.mark.parametrize("layers", [False, True])
+def test_what_the_medium_shakes_in_a_rhythm_of_its_layer_is_part_of_it(layers: bool) -> None:
+    shaken, after, _ = told(film_of(wiggle=0.6, shake=0.7, layers=layers))
+    debris = DEBRIS + DEEPER if layers else DEBRIS
+    np.testing.assert_array_equal(heights(after, debris)[1:], heights(shaken, debris)[1:])
     assert abs(heights(after)[0]) < 3
 
 

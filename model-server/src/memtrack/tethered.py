@@ -2,8 +2,8 @@
 """Bacteria held in one place, where they wiggle: the temporal median shows them, so they are taken out of it.
 
 A bacterium tethered to the glass, or one that trembles in a pore, hardly deviates from a median that holds it. Debris
-is told from it by how it moves: not at all, or in the rhythm of the medium, which shakes all that lies in it alike. So
-one that is alone is left where it is, and where all of them wiggle more is asked of each.
+is told from it by how it moves: not at all, or in the rhythms of the medium, which shakes alike all that lies in one
+layer of it. So one that is alone is left where it is, and where all of them wiggle more is asked of each.
 
 The numbers were chosen on simulated films (docs/experiments.md, "Tethered bacteria").
 """
@@ -31,13 +31,15 @@ WIDTH_PX = 4.0
 """Width (sigma) of the Gaussian weights of the patch around a spot."""
 LOUDEST = 20.0
 """Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
+RHYTHMS = 2
+"""Courses in time that spots may share: a gel's layers do not move alike, nor do the parts of a large field."""
 OWN_SHARE = 0.75
-"""Of a spot's typical step, what is left without the common rhythm."""
+"""Of a spot's typical step, what is left without the common rhythms."""
 SIGNIFICANT, QUIET = 2.5, 4.0
 """A spot's typical step, in errors, must be so many times that of the film's quieter spots, their lower quartile, which
 counts as 1 at least and as `QUIET` at most."""
 FEWEST_OTHERS = 2
-"""Spots apart from one that tell the rhythm it may share: with the stage, where its motion could not be measured."""
+"""Spots apart from one that tell the rhythms it may share: with the stage, where its motion could not be measured."""
 ALIKE = 0.15
 """Least share of what changes around a spot, but for the noise, that its steps explain: digits of a clock, and debris
 in a packed video, change without a move."""
@@ -130,29 +132,33 @@ def _samples(
 
 
 def _moves_by_itself(spots: Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
-    """Which spots move, and in no rhythm that others have too."""
+    """Which spots move, and in no rhythms that others have too."""
     seen = ~np.isnan(moves.steps[:, 0])
     told = (seen.sum(axis=1) >= LEAST_STEPS) & ((~spots.near()).sum(axis=1) >= FEWEST_OTHERS)
     if not told.any():
         return told
     rows = np.clip(np.nan_to_num(moves.steps / moves.error[:, :, None]), -LOUDEST, LOUDEST)
-    rhythm = _rhythm_of_others(spots, rows)
-    rest = rows - (rows @ rhythm[:, :, None]) * rhythm[:, None, :]
-    own, with_rhythm = _typical(rest, seen), _typical(rows, seen)
+    rhythms = _rhythms_of_others(spots, rows)
+    rest = rows - rows @ rhythms @ rhythms.transpose(0, 2, 1)
+    # By chance rhythms take their share of any course in time.
+    rest *= np.sqrt(rows.shape[2] / (rows.shape[2] - RHYTHMS))
+    own, with_rhythms = _typical(rest, seen), _typical(rows, seen)
     quiet = np.clip(np.quantile(own[told], 0.25), 1, QUIET)
     far = own * np.sqrt(np.square(moves.error).mean(axis=1)) > LEAST_STEP_PX
-    by_itself = (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * with_rhythm)
+    by_itself = (own > SIGNIFICANT * quiet) & (own > OWN_SHARE * with_rhythms)
     return told & far & by_itself & (moves.explained > ALIKE)
 
 
-def _rhythm_of_others(spots: Spots, rows: Float[np.ndarray, "spot axis step"]) -> Float[np.ndarray, "spot step"]:
-    """For each spot the course in time, of length 1, that explains most of the steps of those apart from it."""
+def _rhythms_of_others(
+    spots: Spots, rows: Float[np.ndarray, "spot axis step"]
+) -> Float[np.ndarray, "spot step rhythm"]:
+    """For each spot the courses in time, orthonormal, that explain most of the steps of those apart from it."""
     count = rows.shape[2]
     length = np.linalg.norm(rows, axis=2, keepdims=True)
-    even = rows * np.minimum(1, 3 * np.sqrt(count) / (length + 1e-9))  # so that no single spot is the rhythm
+    even = rows * np.minimum(1, 3 * np.sqrt(count) / (length + 1e-9))  # so that no single spot is a rhythm
     products = even.transpose(0, 2, 1) @ even
     own = (spots.near().astype(float) @ products.reshape(len(products), -1)).reshape(products.shape)
-    courses: np.ndarray = np.linalg.eigh(products.sum(axis=0) - own)[1][:, :, -1]
+    courses: np.ndarray = np.linalg.eigh(products.sum(axis=0) - own)[1][:, :, -RHYTHMS:]
     return courses
 
 
