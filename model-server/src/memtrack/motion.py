@@ -18,6 +18,7 @@ from jaxtyping import UInt8
 
 from memtrack.background import aligned_frame
 from memtrack.channels import KNEE, NEUTRAL, Channel, Image, as_bytes, shading_of, signed
+from memtrack.clouds import take_out_clouds
 from memtrack.errors import SettingsError
 from memtrack.flow import farneback_magnitude, lucas_kanade_magnitude
 from memtrack.registration import overlap
@@ -99,8 +100,11 @@ class FilmFeatures:
     def _deviation_values(self, index: int, aligned: Image) -> Image:
         values: Image = aligned - self.scene.median(index)
         values *= np.float32(1 / self.scene.noise(index))
-        # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
-        values -= shading_of(np.clip(values, -3, 3))
+        if self.scene.clouded(index):
+            take_out_clouds(values)
+        else:
+            # Cells are clipped before the shading is estimated, so that a bright one leaves no dark cloud around it.
+            values -= shading_of(np.clip(values, -3, 3))
         take_out_wobble(values, self.scene.slopes(index))
         return values
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from memtrack.background import Background, Progress, split_drift, temporal_background
 from memtrack.channels import Channel, Image, shading_of, signed
+from memtrack.clouds import change_besides_clouds
 from memtrack.film import Film
 from memtrack.fixed_pattern import fixed_pattern
 from memtrack.resting import Looks, without_resting
@@ -69,7 +70,7 @@ class Windows:
 @dataclass(frozen=True, slots=True)
 class Still:
     """A background with what the features need of it: its shading, mean grey `level` and `texture`, its spread as a
-    channel, its slopes, and the `noise` a deviation is counted in; in grey levels."""
+    channel, its slopes, the `noise` a deviation is counted in, in grey levels, and whether it is `clouded`."""
 
     background: Background
     shading: Image
@@ -78,19 +79,31 @@ class Still:
     level: float
     noise: float
     texture: float
+    clouded: bool
 
     @classmethod
-    def of(cls, background: Background, *, whole_numbers: bool) -> Still:
-        """Measures `background`; `whole_numbers` says whether the film holds only such."""
+    def of(cls, background: Background, besides_clouds: float, *, whole_numbers: bool) -> Still:
+        """Measures `background`.
+
+        Args:
+            besides_clouds: see `change_besides_clouds`.
+            whole_numbers: whether the film holds only such.
+        """
         median = background.median
         shading = shading_of(median)
         texture = float(np.std(median - shading))
         # Without noise (simulated or compressed films) residues of the scene are what a deviation must exceed.
         rounding = 0.29 if whole_numbers else 1e-4 * float(np.abs(median).mean()) + 1e-9
-        noise = float(np.linalg.norm([background.noise, 0.03 * texture, rounding]))
+        least = (0.03 * texture, rounding)
+        noise = float(np.linalg.norm([background.noise, *least]))
         spread = signed(background.spread / np.float32(noise) - 1)
+        # Where less than rounding is left, packing has taken the noise out, and what flickers is no clouds.
+        clouded = rounding < besides_clouds < background.noise
+        if clouded:
+            noise = float(np.linalg.norm([besides_clouds, *least]))
         slopes = Slopes.of(median, noise)
-        return cls(background, shading, spread, slopes, float(median.mean()), noise, float(np.hypot(texture, noise)))
+        level, texture = float(median.mean()), float(np.hypot(texture, noise))
+        return cls(background, shading, spread, slopes, level, noise, texture, clouded)
 
     def with_median_of(self, background: Background) -> Still:
         """Of the same scene, whose noise and texture it keeps, but with another median to compare frames with."""
@@ -155,12 +168,16 @@ class Scene:
 
     def slopes(self, index: int) -> Slopes:
         """Slopes of the median; between two windows' backgrounds, of the nearer one."""
-        number, place = max(self._windows.near(index), key=lambda near: near[1])[0], self.place(index)
+        number, place = self._nearest(index), self.place(index)
         if self._slopes is None or self._slopes[0] != (number, place):  # the same for many frames of a slow drift
             still = self._still(number)
             window = still.background.window(place, self.film.height, self.film.width)
             self._slopes = (number, place), still.slopes.seen(*window)
         return self._slopes[1]
+
+    def clouded(self, index: int) -> bool:
+        """Whether clouds are to be taken out of the frame's deviation (`memtrack.clouds`)."""
+        return self._still(self._nearest(index)).clouded
 
     def noise(self, index: int) -> float:
         """What a deviation must exceed, in grey levels."""
@@ -173,6 +190,9 @@ class Scene:
     def level(self, index: int) -> float:
         """Mean of the median."""
         return self._value(index, lambda still: still.level)
+
+    def _nearest(self, index: int) -> int:
+        return max(self._windows.near(index), key=lambda near: near[1])[0]
 
     def _value(self, index: int, of: Callable[[Still], float]) -> float:
         return sum(share * of(self._still(number)) for number, share in self._windows.near(index))
@@ -201,7 +221,8 @@ class Scene:
             if pattern is not None:
                 self.motion = replace(self.motion, pattern=pattern)
                 background = self._background(window, report)
-        still = Still.of(background, whole_numbers=self._whole_numbers)
+        besides_clouds = change_besides_clouds(background, self.film, self.motion, window)
+        still = Still.of(background, besides_clouds, whole_numbers=self._whole_numbers)
         freed = without_tethered(background, self.film, self.motion, window, still.noise, lambda: report(1, 1))
         if self._looks is not None:
             freed, _ = without_resting(freed, still.noise, self._looks)

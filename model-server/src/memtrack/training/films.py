@@ -178,6 +178,7 @@ _SHAPING = (
     "stabilisation.py",
     "background.py",
     "fixed_pattern.py",
+    "clouds.py",
     "wobble.py",
     "spots.py",
     "tethered.py",
