@@ -123,7 +123,8 @@ def test_detect_tells_what_the_server_would_warn_of(tmp_path: Path) -> None:
     notes = json.loads((tmp_path / "d.provenance.json").read_text(encoding="utf-8"))["film"]["notes"]
     assert [line.removeprefix("Note: ") for line in done.stderr.splitlines() if line.startswith("Note: ")] == notes
     assert [note.partition(";")[0] for note in notes] == [
-        "The film has no pixel size and no cell length was given, so it is used at its own scale",
+        "The film has no pixel size and no cell length was given, so it is used at its own scale, or at a "
+        "smaller one where more cells are found then",
         "The film has 1 frame(s)",
     ]
 

@@ -9,7 +9,7 @@ import pytest
 
 from memtrack.detections import FilterCounts, FrameDetections
 from memtrack.errors import CancelledError, FilmError, SettingsError
-from memtrack.film import ArrayFilm
+from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import Model, load_model
 from memtrack.pipeline import detect_film
 from memtrack.progress import Stage
@@ -166,6 +166,31 @@ def test_a_film_at_twice_the_scale_is_brought_to_the_models(gel: SimulatedFilm, 
     assert error < 1.5
 
 
+@pytest.mark.parametrize("calibrated", [False, True])
+def test_cells_three_times_as_long_as_expected_are_found(gel: SimulatedFilm, model: Model, calibrated: bool) -> None:
+    frames = np.stack([ScaledFilm(gel.film, 3.0).frame(i).clip(0, 255).astype(np.uint8) for i in range(40)])
+    large = ArrayFilm(frames, gel.film.calibration if calibrated else Calibration())
+    said: list[str] = []
+    found = list(detect_film(large, model, DetectionSettings(), lambda *_: None, said.append))
+    precision, recall, error = judge(gel, found, scale=1 / 3)
+    assert precision > 0.85
+    assert recall > 0.75
+    assert error < 1.5
+    assert re.match(r"The cells of the film seem to be about [23] times as long as expected", said[0])
+    assert judge(gel, run(large, model, cell_length_px=8), scale=1 / 3)[1] < 0.5
+
+
+def test_cells_as_long_as_expected_are_seen_at_the_usual_scale(gel: SimulatedFilm, model: Model) -> None:
+    said: list[str] = []
+    for one, other in zip(
+        detect_film(gel.film, model, DetectionSettings(), lambda *_: None, said.append),
+        run(gel.film, model, cell_length_px=8),
+        strict=True,
+    ):
+        np.testing.assert_array_equal(one.detections.boxes, other.detections.boxes)
+    assert said == []
+
+
 def test_a_region_keeps_what_is_in_it(gel: SimulatedFilm, model: Model) -> None:
     region = np.zeros((224, 256), bool)
     region[:, :128] = True
@@ -219,7 +244,8 @@ def test_progress_is_reported_for_each_frame_and_stage(gel: SimulatedFilm, model
 def test_a_long_film_is_answered_in_order_while_its_backgrounds_are_made(model: Model) -> None:
     frames = np.random.default_rng(0).integers(0, 255, (910, 16, 16), np.uint8)
     calls: list[tuple[Stage, int, int]] = []
-    found = detect_film(ArrayFilm(frames), model, DetectionSettings(stabilise=False), lambda *call: calls.append(call))
+    settings = DetectionSettings(stabilise=False, cell_length_px=8)
+    found = detect_film(ArrayFilm(frames), model, settings, lambda *call: calls.append(call))
     assert [f.frame for f in found] == list(range(910))
     detecting = [(done, total) for stage, done, total in calls if stage is Stage.DETECTING]
     assert detecting == sorted(detecting)

@@ -1,48 +1,92 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a few frames tell before all are worked on: how bacteria that rest would look, and whether there is a crowd."""
+"""What a few frames tell before all are worked on: whether the film's cells are longer than expected, how
+bacteria that rest would look, and whether there is a crowd."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
-from memtrack.detections import FrameDetections
-from memtrack.motion import FilmFeatures
+from memtrack.detections import Detections, FrameDetections
 from memtrack.nets import Nets
 from memtrack.pruning import PrunerSettings, prune
 from memtrack.resting import Looks
-from memtrack.scene import Scene
+from memtrack.view import View
 
-SIGHTS = 5
-"""Frames in which bacteria that move are measured."""
+SIGHTS, CLOSE_SIGHTS = 5, 3
+"""Frames that are looked at for the bacteria that move: spread over the film, or, where it must not take long, those in
+its middle, which share most of what their features need."""
+SMALLER, LEAST_EDGE_PX = (0.35, 0.5, 0.25), 64
+"""Scales that are tried against the usual one, and the edge of a frame at the least of them."""
+PROMISING, SURER, MORE, AS_SURE = 0.75, 1.25, 1.0, 0.95
+"""A smaller scale is taken where the sum of the scores in a frame is `SURER` times that at the usual scale, and `MORE`
+more; and of several scales the largest that has `AS_SURE` of the greatest sum. After the first one the others are only
+tried where it has `PROMISING` of the usual sum, which it rarely has where cells are as long as expected."""
 SUSPECTED_ROOM_PX2, CROWDED_ROOM_PX2, CROWD = 8000.0, 3500.0, 20
 """A film is a crowd, and the model's model for crowds takes over, where that one finds `CROWD` bacteria in a frame or
 more, with less than `CROWDED_ROOM_PX2` square pixels for each, at the model's scale. It is asked only where the model
 itself has less than `SUSPECTED_ROOM_PX2` for each box, faint ones among them: of some crowds it finds hardly more."""
 
 
-def free_resting(
-    scene: Scene, features: FilmFeatures, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None]
-) -> str:
+def fitting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None], threads: int) -> View:
+    """`view`, or a smaller one of the same film in which the nets find more bacteria or are surer of them: where these
+    are much longer than those the model knows, it sees parts of them at best.
+
+    Args:
+        view: of a film whose bacteria may be longer than expected.
+        pruner: what is dropped of candidates, at the model's scale.
+        alive: called for each frame that is looked at.
+        threads: at work on backgrounds.
+    """
+
+    first = max(0, view.scene.middle - CLOSE_SIGHTS // 2)
+    middle = range(first, min(first + CLOSE_SIGHTS, view.film.frame_count))
+
+    def sureness(seen: View) -> float:
+        return float(np.mean([found.scores.sum() for _, found in _found(middle, seen, nets, pruner, alive)]))
+
+    edge = min(view.scene.film.height, view.scene.film.width)
+    if edge * max(SMALLER) < LEAST_EDGE_PX:
+        return view
+    usual, tried = sureness(view), dict[float, tuple[float, View]]()
+    for factor in SMALLER:
+        if factor * edge >= LEAST_EDGE_PX:
+            smaller = view.shrunk(factor, alive=alive, threads=threads)
+            tried[factor] = sureness(smaller), smaller
+            if len(tried) == 1 and tried[factor][0] < PROMISING * usual:
+                return view
+    best = max(sure for sure, _ in tried.values())
+    if best <= SURER * usual + MORE:
+        return view
+    return next(seen for _, (sure, seen) in sorted(tried.items(), reverse=True) if sure >= AS_SURE * best)
+
+
+def free_resting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None]) -> str:
     """Takes bacteria that rest out of the scene, by the looks of those that move; what the user should know.
 
     Args:
-        scene, features: of one film; the features of the scene as it was are of no more use.
+        view: whose scene is changed, so that its features are of no more use.
         pruner: what is dropped of candidates, at the model's scale.
         alive: called for each frame that is looked at.
     """
-    moving = []
-    for i in np.unique(np.linspace(0, 2 * scene.middle, SIGHTS + 2)[1:-1].astype(int)).tolist():
-        alive()
-        moving.append((features.deviation(i), prune(nets.candidates(features.channels(i)), pruner)[0]))
-    looks = Looks.of(moving)
+    spread = np.unique(np.linspace(0, 2 * view.scene.middle, SIGHTS + 2)[1:-1].astype(int)).tolist()
+    looks = Looks.of((view.features.deviation(i), found) for i, found in _found(spread, view, nets, pruner, alive))
     if looks is None:
         return "No resting bacteria were looked for: too few move that could tell how a bacterium of this film looks."
-    count = scene.free_resting(looks)
+    count = view.scene.free_resting(looks)
     if not count:
         return "No resting bacteria were found: nothing that never moves is as dark or as bright as those that move."
     return f"{count} spot(s) that never move are as dark or as bright as the bacteria that move, and may be found, too."
+
+
+def _found(
+    frames: Iterable[int], view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None]
+) -> Iterator[tuple[int, Detections]]:
+    """What is found in each of some frames, at the model's scale."""
+    for i in frames:
+        alive()
+        yield i, prune(nets.candidates(view.features.channels(i)), pruner)[0]
 
 
 def crowd_in(usual: FrameDetections, for_crowds: Callable[[], FrameDetections], area: float) -> int:

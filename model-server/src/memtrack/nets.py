@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from memtrack.channels import Channel
 from memtrack.contrast import with_contrasts
 from memtrack.detections import Detections
 from memtrack.detector import Engine, padded
 from memtrack.models import Model
-from memtrack.pruning import PrunerSettings
 from memtrack.refinement import Refiner, refined
 from memtrack.settings import DetectionSettings
 
@@ -20,19 +19,17 @@ DEVIATION = "deviation"
 
 @dataclass(frozen=True, slots=True)
 class Nets:
-    """A model's nets, ready to run, and what is dropped of their candidates, in pixels of the film."""
+    """A model's nets, ready to run."""
 
     model: Model
     engine: Engine
     refiner: Refiner | None
-    pruner: PrunerSettings
 
     @classmethod
-    def of(cls, model: Model, settings: DetectionSettings, scale: float) -> Nets:
+    def of(cls, model: Model, settings: DetectionSettings) -> Nets:
         """See `Model.engine` for what it raises."""
         kind, threads = settings.engine, settings.threads
-        pruner = replace(settings.pruner(model.card), max_size_px=settings.max_size_px / scale)
-        return cls(model, model.engine(kind, threads=threads), model.refiner(kind, threads=threads), pruner)
+        return cls(model, model.engine(kind, threads=threads), model.refiner(kind, threads=threads))
 
     def candidates(self, channels: list[Channel]) -> Detections:
         """Of one frame; with contrasts where the model's features hold the signed deviation."""

@@ -15,18 +15,17 @@ from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections
 from memtrack.errors import SettingsError
 from memtrack.film import Film
-from memtrack.first_look import crowd_in, free_resting
+from memtrack.first_look import crowd_in, fitting, free_resting
 from memtrack.lookahead import ahead
 from memtrack.models import Model
-from memtrack.motion import FilmFeatures
 from memtrack.nets import Nets
 from memtrack.progress import Report, Stage
 from memtrack.pruning import faint, prune
-from memtrack.resampling import ScaledFilm, factors_of
+from memtrack.resampling import scaled
 from memtrack.scale import model_scale
-from memtrack.scene import Scene
 from memtrack.settings import DetectionSettings
 from memtrack.stabilisation import measure_motion
+from memtrack.view import View
 
 BLANK_MARGIN_PX = 6.0
 """Where the scene drifts, the edge of a blank part seems to move, and passes for cells so near to it at most, at the
@@ -57,16 +56,10 @@ def detect_film(
     _check(film, settings)
     film = mended(film)
     scale = model_scale(film, model, settings)
-    scaled = film if scale == 1 else ScaledFilm(film, scale)
-    factors = factors_of(film, scaled)
     region, threads = settings.region, settings.threads
-    nets = Nets.of(model, settings, scale)
-
+    nets = Nets.of(model, settings)
     stabilising = _at(report, Stage.STABILISING)
-    motion = measure_motion(scaled, stabilise=settings.stabilise, report=stabilising, threads=threads)
-    if isinstance(film, FilledFilm):
-        margin = min(float(np.abs(motion.drift).max()), BLANK_MARGIN_PX)
-        region = _lit(film, region, margin / scale)
+    motion = measure_motion(scaled(film, scale), stabilise=settings.stabilise, report=stabilising, threads=threads)
     if motion.unmeasured:
         warn(motion.unmeasured)
     done, count = 0, film.frame_count
@@ -79,23 +72,41 @@ def detect_film(
     def alive() -> None:
         report(Stage.DETECTING, done, count)
 
-    scene = Scene(scaled, motion, report=_at(report, Stage.BACKGROUND), alive=alive, threads=threads)
-    features = FilmFeatures(scene, model.card.features)
+    view = View.of(
+        film,
+        scale,
+        motion,
+        model.card.features,
+        report=_at(report, Stage.BACKGROUND),
+        alive=alive,
+        threads=threads,
+    )
+    if settings.cell_length_px is None:
+        view = fitting(view, nets, settings.pruner(model.card), alive, threads)
+        if view.scale < scale:
+            warn(
+                f"The cells of the film seem to be about {scale / view.scale:.0f} times as long as expected, since "
+                f"more are found at {view.scale / scale:g} of the usual scale, now used; give a cell length to choose."
+            )
+    if isinstance(film, FilledFilm):
+        margin = min(float(np.abs(view.motion.drift).max()), BLANK_MARGIN_PX)
+        region = _lit(film, region, margin / view.scale)
 
     def found(by: Nets, i: int, on_grid: Detections) -> FrameDetections:
-        candidates = to_film(on_grid, split_drift(motion.drift[i])[1], factors)
-        kept, counts = prune(candidates, by.pruner, region)
-        drift_x, drift_y = motion.drift[i] / factors
-        weak = faint(candidates, kept, by.pruner, region)
+        drift, pruner = view.motion.drift[i], settings.pruner(by.model.card, view.scale)
+        candidates = to_film(on_grid, split_drift(drift)[1], view.factors)
+        kept, counts = prune(candidates, pruner, region)
+        drift_x, drift_y = drift / view.factors
+        weak = faint(candidates, kept, pruner, region)
         return FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
 
     if settings.resting:
-        warn(free_resting(scene, features, nets, settings.pruner(model.card), alive))
-        features = FilmFeatures(scene, model.card.features)  # of the new background
+        warn(free_resting(view, nets, settings.pruner(model.card), alive))
+        view = view.renewed()
     if model.crowds is not None:
-        for_crowds, middle = Nets.of(model.crowds, settings, scale), scene.middle
-        seen = features.channels(middle)
-        area = (film.height * film.width if region is None else int(region.sum())) * scale**2
+        for_crowds, middle = Nets.of(model.crowds, settings), view.scene.middle
+        seen = view.features.channels(middle)
+        area = (film.height * film.width if region is None else int(region.sum())) * view.scale**2
         usual = found(nets, middle, nets.candidates(seen))
         crowd = crowd_in(usual, lambda: found(for_crowds, middle, for_crowds.candidates(seen)), area)
         if crowd:
@@ -106,7 +117,7 @@ def detect_film(
             )
             taken(model.crowds)
             nets = for_crowds
-    frames = (features.channels(i) for i in range(count))
+    frames = (view.features.channels(i) for i in range(count))
     with ahead(nets.candidates, frames, threads) as candidates_of_frames:
         for i, on_grid in enumerate(candidates_of_frames):
             done = i + 1
@@ -138,8 +149,8 @@ def caveats(film: Film, model: Model, settings: DetectionSettings) -> list[str]:
     said, scale = [], model_scale(film, model, settings)
     if film.calibration.pixel_size_um is None and settings.cell_length_px is None:
         said.append(
-            "The film has no pixel size and no cell length was given, so it is used at its own scale; give one of them "
-            "if its cells are much longer or shorter than those the model knows."
+            "The film has no pixel size and no cell length was given, so it is used at its own scale, or at a smaller "
+            "one where more cells are found then; give one of them to be sure."
         )
     if film.frame_count < 10:
         said.append(

@@ -60,6 +60,11 @@ class ScaledFilm(FilmOver):
         return cv2.resize(self.film.frame(index).astype(np.float32), (self.width, self.height), interpolation=how)
 
 
-def factors_of(film: Film, scaled: Film) -> Float64[np.ndarray, " 2"]:
-    """What x and y are really scaled by: x of `film` lands on (x + 0.5) * factor - 0.5 of `scaled`, y likewise."""
-    return np.array([scaled.width / film.width, scaled.height / film.height])
+def scaled(film: Film, scale: float) -> Film:
+    """`film` at `scale`, itself at 1."""
+    return film if scale == 1 else ScaledFilm(film, scale)
+
+
+def factors_of(film: Film, at_scale: Film) -> Float64[np.ndarray, " 2"]:
+    """What x and y are really scaled by: x of `film` lands on (x + 0.5) * factor - 0.5 of `at_scale`, y likewise."""
+    return np.array([at_scale.width / film.width, at_scale.height / film.height])

@@ -59,8 +59,9 @@ class DetectionSettings:
         if not 1 <= self.threads <= 256:
             raise SettingsError(f"threads is {self.threads}: give a number from 1 to 256")
 
-    def pruner(self, card: ModelCard) -> PrunerSettings:
-        """What is dropped of a model's candidates at its scale: by the thresholds given, or the criterion's.
+    def pruner(self, card: ModelCard, scale: float = 1) -> PrunerSettings:
+        """What is dropped of a model's candidates: by the thresholds given, or the criterion's. `scale`: by which the
+        film was scaled in whose pixels the candidates are.
 
         Raises:
             SettingsError: it would be all of them, as the model's boxes are not below `max_size_px`.
@@ -71,4 +72,6 @@ class DetectionSettings:
                 f"max_size_px is {self.max_size_px:g}, but all boxes of model {card.name} {card.version} have {box:g} "
                 f"pixels and would be dropped: give more than {box:g}"
             )
-        return PrunerSettings(self.thresholds or card.thresholds[self.criterion], self.max_size_px, self.nms_iou)
+        return PrunerSettings(
+            self.thresholds or card.thresholds[self.criterion], self.max_size_px / scale, self.nms_iou
+        )

@@ -18,7 +18,7 @@ from memtrack.film import Calibration
 from memtrack.motility import motility_of, peak_diffusivity
 from memtrack.motion import FeatureSpec
 from memtrack.pipeline import mended
-from memtrack.resampling import ScaledFilm, factors_of
+from memtrack.resampling import factors_of, scaled
 from memtrack.scale import scale_to
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
@@ -94,11 +94,11 @@ def annotated_samples(
             truth = with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
             scale = scale_to(cell_length_px, film.calibration)
             whole = mended(film)
-            scaled = whole if scale == 1 else ScaledFilm(whole, scale)
-            across, down = factors_of(whole, scaled)
+            at_scale = scaled(whole, scale)
+            across, down = factors_of(whole, at_scale)
             truth = replace(truth, x=(truth.x + 0.5) * across - 0.5, y=(truth.y + 0.5) * down - 0.5)
             rng = np.random.default_rng([seed, number])
-            made.append(extract(scaled, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))
+            made.append(extract(at_scale, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))
     return made
 
 

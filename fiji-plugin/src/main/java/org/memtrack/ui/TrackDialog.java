@@ -135,8 +135,9 @@ final class TrackDialog {
     /** By what the film is brought to the model's scale. */
     static String aboutScale(Map<TrackOption, String> values) {
         return values.get(TrackOption.PIXEL_SIZE).isEmpty()
-                ? "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length of a cell. With neither the film is used as it is."
-                : "Cells are taken to be 2 um long, unless you give the length of one.";
+                ? "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length of a cell."
+                        + " With neither the film is used as it is. Much longer cells are told by the film itself."
+                : "Cells are taken to be 2 um long, unless you give the length of one; much longer ones are told by the film itself.";
     }
 
     private static String help(List<TrackOption> shown) {
