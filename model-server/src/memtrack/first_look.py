@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+import cv2
 import numpy as np
 
 from memtrack.detections import Detections, FrameDetections
@@ -23,10 +24,17 @@ PROMISING, SURER, MORE, AS_SURE = 0.75, 1.25, 1.0, 0.95
 """A smaller scale is taken where the sum of the scores in a frame is `SURER` times that at the usual scale, and `MORE`
 more; and of several scales the largest that has `AS_SURE` of the greatest sum. After the first one the others are only
 tried where it has `PROMISING` of the usual sum, which it rarely has where cells are as long as expected."""
+BROAD = 0.35
+"""What is found at the smaller scale must be broad: its deviation 6 to 8 px from the centre, squared and at the usual
+scale, is this share of that within 3 px, or more. Of faint bacteria, too, more is found at a smaller scale, where there
+is less noise: there it is 0.02 to 0.1, and 0.5 to 1 of bacteria twice to four times as long as expected."""
 SUSPECTED_ROOM_PX2, CROWDED_ROOM_PX2, CROWD = 8000.0, 3500.0, 20
 """A film is a crowd, and the model's model for crowds takes over, where that one finds `CROWD` bacteria in a frame or
 more, with less than `CROWDED_ROOM_PX2` square pixels for each, at the model's scale. It is asked only where the model
 itself has less than `SUSPECTED_ROOM_PX2` for each box, faint ones among them: of some crowds it finds hardly more."""
+
+Sight = tuple[int, Detections]
+"""A frame, and what is found in it."""
 
 
 def fitting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None], threads: int) -> View:
@@ -40,26 +48,46 @@ def fitting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], 
         threads: at work on backgrounds.
     """
 
-    first = max(0, view.scene.middle - CLOSE_SIGHTS // 2)
-    middle = range(first, min(first + CLOSE_SIGHTS, view.film.frame_count))
-
-    def sureness(seen: View) -> float:
-        return float(np.mean([found.scores.sum() for _, found in _found(middle, seen, nets, pruner, alive)]))
-
     edge = min(view.scene.film.height, view.scene.film.width)
     if edge * max(SMALLER) < LEAST_EDGE_PX:
         return view
-    usual, tried = sureness(view), dict[float, tuple[float, View]]()
+    first = max(0, view.scene.middle - CLOSE_SIGHTS // 2)
+    middle = range(first, min(first + CLOSE_SIGHTS, view.film.frame_count))
+    usual = _sureness(_found(middle, view, nets, pruner, alive))
+    tried: dict[float, tuple[float, View, list[Sight]]] = {}
     for factor in SMALLER:
         if factor * edge >= LEAST_EDGE_PX:
             smaller = view.shrunk(factor, alive=alive, threads=threads)
-            tried[factor] = sureness(smaller), smaller
+            sights = list(_found(middle, smaller, nets, pruner, alive))
+            tried[factor] = _sureness(sights), smaller, sights
             if len(tried) == 1 and tried[factor][0] < PROMISING * usual:
                 return view
-    best = max(sure for sure, _ in tried.values())
+    best = max(sure for sure, _, _ in tried.values())
     if best <= SURER * usual + MORE:
         return view
-    return next(seen for _, (sure, seen) in sorted(tried.items(), reverse=True) if sure >= AS_SURE * best)
+    factor = max(factor for factor, (sure, _, _) in tried.items() if sure >= AS_SURE * best)
+    _, smaller, sights = tried[factor]
+    return smaller if _are_broad(sights, factor, view) else view
+
+
+def _sureness(sights: Iterable[Sight]) -> float:
+    return float(np.mean([found.scores.sum() for _, found in sights]))
+
+
+def _are_broad(sights: Iterable[Sight], factor: float, usual: View) -> bool:
+    """Whether what was found at `factor` of the usual scale is broad there, see `BROAD`."""
+    y, x = np.mgrid[-8:9, -8:9]
+    radius = np.hypot(x, y)
+    within = []
+    for i, found in sights:
+        power = np.square(np.clip(usual.features.deviation(i), -10, 10))
+        power -= float(np.median(power)) / 0.455  # the median of squares of normally distributed noise
+        height, width = power.shape
+        across, down = np.rint((found.centres + 0.5) / factor - 0.5).astype(int).T
+        at = np.clip(down, 0, height - 1), np.clip(across, 0, width - 1)
+        for ring in (radius < 3, (radius >= 6) & (radius < 8)):
+            within.append(cv2.filter2D(power, cv2.CV_32F, ring / ring.sum())[at].sum())
+    return float(np.sum(within[1::2])) >= BROAD * float(np.sum(within[::2]))
 
 
 def free_resting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None]) -> str:
@@ -82,7 +110,7 @@ def free_resting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable
 
 def _found(
     frames: Iterable[int], view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], None]
-) -> Iterator[tuple[int, Detections]]:
+) -> Iterator[Sight]:
     """What is found in each of some frames, at the model's scale."""
     for i in frames:
         alive()
