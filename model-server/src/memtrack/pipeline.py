@@ -42,7 +42,7 @@ def detect_film(
 ) -> Iterator[FrameDetections]:
     """Detects the bacteria of each frame, in the order of the frames, none dropped.
 
-    Reads the film up to four times through `film.frame`, some of its frames up to seven times more; holds a few.
+    Reads the film up to four times through `film.frame`, some of its frames several times more; holds a few.
     `report(stage, done, total)` is called at least once a frame in every stage and may raise `CancelledError`. The
     backgrounds of a long film after the first are made while detecting, each when its frames come. `warn(sentence)` is
     called with what the user should know about the film, `taken(model)` with the model for crowds where it takes over,

@@ -76,7 +76,7 @@ final class DetectorPanel extends ConfigurationPanel {
                 cellLength,
                 "Length of a cell as it looks in this film, 1 to 200 pixels; by it the film is brought to the model's scale. 0: by"
                         + " the film's pixel size, cells being taken to be 2 um long; without one the film is used as it is."
-                        + " Longer ones are told by the film itself.");
+                        + " Much longer ones are recognised.");
         form.row(
                 "Greatest size (px)",
                 maximumSize,

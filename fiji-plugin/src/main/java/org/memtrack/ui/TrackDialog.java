@@ -136,8 +136,8 @@ final class TrackDialog {
     static String aboutScale(Map<TrackOption, String> values) {
         return values.get(TrackOption.PIXEL_SIZE).isEmpty()
                 ? "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length of a cell."
-                        + " With neither the film is used as it is. Much longer cells are told by the film itself."
-                : "Cells are taken to be 2 um long, unless you give the length of one; much longer ones are told by the film itself.";
+                        + " With neither the film is used as it is. Much longer cells are recognised."
+                : "Cells are taken to be 2 um long, unless you give the length of one; much longer ones are recognised.";
     }
 
     private static String help(List<TrackOption> shown) {
