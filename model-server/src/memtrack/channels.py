@@ -13,8 +13,8 @@ Channel = UInt8[np.ndarray, "h w"]
 NEUTRAL = 128
 KNEE = 10.0
 """Signed channels hold 128 + 127 v / (|v| + KNEE): 12 steps to a noise sd near zero, never saturated."""
-SHADING_PX = 8
-"""Shading is told at this fraction of the size, smoothed over 4 such pixels."""
+SHADING_PX, SHADING_SHRINK = 32.0, 8
+"""Width (sigma) of the Gaussian windows that tell shading, at this fraction of the size."""
 
 
 def signed(values: Image) -> Channel:
@@ -35,6 +35,12 @@ def as_bytes(values: np.ndarray) -> Channel:
 
 def shading_of(image: Image) -> Image:
     """`image` without anything as small as bacteria or grain."""
+    return coarse(image, SHADING_PX, SHADING_SHRINK)
+
+
+def coarse(image: Image, reach_px: float, shrink: int) -> Image:
+    """`image` through Gaussian windows of a width (sigma) of `reach_px`, averaged at 1/`shrink` of the size."""
     h, w = image.shape
-    small = cv2.resize(image, (max(1, w // SHADING_PX), max(1, h // SHADING_PX)), interpolation=cv2.INTER_AREA)
-    return cv2.resize(cv2.GaussianBlur(small, (0, 0), 4), (w, h), interpolation=cv2.INTER_LINEAR)
+    small = cv2.resize(image, (max(1, w // shrink), max(1, h // shrink)), interpolation=cv2.INTER_AREA)
+    smooth = cv2.GaussianBlur(small, (0, 0), reach_px / shrink)
+    return cv2.resize(smooth, (w, h), interpolation=cv2.INTER_LINEAR)

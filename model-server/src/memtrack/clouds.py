@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clouds: what changes in a film on a larger scale than bacteria, as in mucus, murky water, or far out of focus.
+"""Clouds: what changes in a film on a larger scale than bacteria, as in mucus.
 
 Where clouds are most of what changes, bacteria would pass for noise, since a deviation is counted in units of all that
 changes. So the deviations of such a film are freed of clouds, and counted in units of what changes besides. Not a part
@@ -8,11 +8,10 @@ of the paper.
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 
 from memtrack.background import Background, aligned_frame, split_drift
-from memtrack.channels import Image
+from memtrack.channels import Image, coarse
 from memtrack.film import Film
 from memtrack.stabilisation import FilmMotion
 
@@ -42,7 +41,7 @@ def change_besides_clouds(background: Background, film: Film, motion: FilmMotion
     for i in np.unique(np.linspace(frames[0], frames[-1], SIGHTS).astype(int)).tolist():
         seen = background.window(split_drift(motion.drift[i])[0], film.height, film.width)
         change = aligned_frame(film, motion, i) - background.median[seen]
-        besides.append([_typical(change - _clouds_of(change, reach)) for reach in (WIDE_PX, REACH_PX)])
+        besides.append([_typical(change - coarse(change, reach, SHRINK)) for reach in (WIDE_PX, REACH_PX)])
     wide, close = np.median(besides, axis=0)
     return float(close if wide < MOST_BESIDES * background.noise else background.noise)
 
@@ -50,15 +49,8 @@ def change_besides_clouds(background: Background, film: Film, motion: FilmMotion
 def take_out_clouds(deviation: Image) -> None:
     """Takes clouds out of `deviation`, in units of the noise, in place; a second time without what stands out of them,
     so that a bacterium leaves no cloud of the other sign around it."""
-    deviation -= _clouds_of(deviation, REACH_PX)
-    deviation -= _clouds_of(np.clip(deviation, -CLIPPED, CLIPPED), REACH_PX)
-
-
-def _clouds_of(image: Image, reach_px: float) -> Image:
-    h, w = image.shape
-    small = cv2.resize(image, (max(1, w // SHRINK), max(1, h // SHRINK)), interpolation=cv2.INTER_AREA)
-    clouds = cv2.GaussianBlur(small, (0, 0), reach_px / SHRINK)
-    return np.asarray(cv2.resize(clouds, (w, h), interpolation=cv2.INTER_LINEAR))
+    deviation -= coarse(deviation, REACH_PX, SHRINK)
+    deviation -= coarse(np.clip(deviation, -CLIPPED, CLIPPED), REACH_PX, SHRINK)
 
 
 def _typical(change: Image) -> float:

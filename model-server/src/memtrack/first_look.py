@@ -23,11 +23,11 @@ SMALLER, LEAST_EDGE_PX = (0.35, 0.5, 0.25), 64
 PROMISING, SURER, MORE, AS_SURE = 0.75, 1.25, 1.0, 0.95
 """A smaller scale is taken where the sum of the scores in a frame is `SURER` times that at the usual scale, and `MORE`
 more; and of several scales the largest that has `AS_SURE` of the greatest sum. After the first one the others are only
-tried where it has `PROMISING` of the usual sum, which it rarely has where cells are as long as expected."""
+tried where it has `PROMISING` of the usual sum: in a third of the films whose cells are as long as expected."""
 BROAD = 0.35
 """What is found at the smaller scale must be broad: its deviation 6 to 8 px from the centre, squared and at the usual
 scale, is this share of that within 3 px, or more. Of faint bacteria, too, more is found at a smaller scale, where there
-is less noise: there it is 0.02 to 0.1, and 0.5 to 1 of bacteria twice to four times as long as expected."""
+is less noise: there it is 0.1 at most, and 0.6 or more of bacteria twice to four times as long as expected."""
 SUSPECTED_ROOM_PX2, CROWDED_ROOM_PX2, CROWD = 8000.0, 3500.0, 20
 """A film is a crowd, and the model's model for crowds takes over, where that one finds `CROWD` bacteria in a frame or
 more, with less than `CROWDED_ROOM_PX2` square pixels for each, at the model's scale. It is asked only where the model
@@ -47,7 +47,6 @@ def fitting(view: View, nets: Nets, pruner: PrunerSettings, alive: Callable[[], 
         alive: called for each frame that is looked at.
         threads: at work on backgrounds.
     """
-
     edge = min(view.scene.film.height, view.scene.film.width)
     if edge * max(SMALLER) < LEAST_EDGE_PX:
         return view

@@ -32,7 +32,7 @@ WIDTH_PX = 4.0
 LOUDEST = 20.0
 """Steps count up to this many times their error: a swimmer that passes moves a spot much further."""
 RHYTHMS = 2
-"""Courses in time that spots may share: a gel's layers do not move alike, nor do the parts of a large field."""
+"""Courses in time that spots may share: a gel's layers do not move alike."""
 OWN_SHARE = 0.75
 """Of a spot's typical step, what is left without the common rhythms."""
 SIGNIFICANT, QUIET = 2.5, 4.0

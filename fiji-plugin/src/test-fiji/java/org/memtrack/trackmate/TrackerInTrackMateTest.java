@@ -42,7 +42,7 @@ import org.memtrack.tracking.SortSettings;
 import org.memtrack.tracking.SortTracker;
 import org.memtrack.tracking.Track;
 
-/** The tracker on spots of TrackMate's own detector, and what TrackMate does with its result. */
+/** The tracker on spots of TrackMate's own detector and of ours, and what TrackMate does with its result. */
 class TrackerInTrackMateTest {
     private static final String INTERPOLATED = "MEMTRACK_INTERPOLATED";
 
