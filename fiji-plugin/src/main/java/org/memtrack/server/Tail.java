@@ -17,11 +17,12 @@ final class Tail {
 
     private final Deque<String> lines = new ArrayDeque<>();
     private final Thread reader;
+    private boolean finished;
 
     /**
      * Starts reading in a thread of its own, until the stream ends.
      *
-     * @param each told of every line, in that thread
+     * @param each told of every line, in that thread, until {@link #finish} has returned
      */
     Tail(String name, InputStream stream, Consumer<String> each) {
         reader = new Thread(() -> read(stream, each), name);
@@ -33,23 +34,36 @@ final class Tail {
         return List.copyOf(lines);
     }
 
-    /** Waits until the stream has ended, at most a second: a grandchild may hold it open. */
+    /**
+     * Waits until the stream has ended, at most a second: a grandchild may hold it open, or who is told be slow. Of lines
+     * after that nothing is told or kept.
+     */
     void finish() {
         try {
             reader.join(1000);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
+        synchronized (this) {
+            finished = true;
+        }
     }
 
     private void read(InputStream stream, Consumer<String> each) {
         try (BufferedReader in = new BufferedReader(new InputStreamReader(stream, StandardCharsets.UTF_8))) {
             for (String line = in.readLine(); line != null; line = in.readLine()) {
-                keep(line);
-                each.accept(line);
+                tell(line, each);
             }
         } catch (IOException e) {
             keep("(reading its output failed: " + e.getMessage() + ")");
+        }
+    }
+
+    /** The lock is held meanwhile, so that nobody is told of a line while {@link #finish} returns. */
+    private synchronized void tell(String line, Consumer<String> each) {
+        if (!finished) {
+            keep(line);
+            each.accept(line);
         }
     }
 

@@ -37,7 +37,7 @@ final class WatchedProcess {
     /**
      * Runs a program.
      *
-     * @param each told every line, in a thread of its own; also those that were on their way when the program was ended
+     * @param each told every line, in a thread of its own, and nothing more when this has returned
      * @param limit after which the program is ended
      * @throws IOException when it cannot be started
      * @throws TimeoutException when it did not end in time; the message is a clause that says so

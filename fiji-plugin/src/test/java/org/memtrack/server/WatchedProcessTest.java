@@ -68,10 +68,10 @@ class WatchedProcessTest {
         AtomicInteger heard = new AtomicInteger();
         Consumer<String> slow = line -> {
             heard.incrementAndGet();
-            LockSupport.parkNanos(1_000);
+            LockSupport.parkNanos(1_000_000); // what waits in the pipe would keep it busy for many seconds
         };
         assertThatThrownBy(() -> WatchedProcess.run(
-                        program, cancelledWhen(() -> heard.get() > 1000), slow, Duration.ofMinutes(1)))
+                        program, cancelledWhen(() -> heard.get() > 100), slow, Duration.ofMinutes(1)))
                 .isInstanceOf(CancellationException.class);
         int heardAtTheEnd = heard.get();
         Thread.sleep(200);
