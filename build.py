@@ -132,16 +132,21 @@ def install_server(extras: str) -> None:
     if sys.version_info < (3, 11):
         sys.exit(f"Python {sys.version.split()[0]} is too old; run build.py with Python 3.11 or newer.")
     sources = [SERVER / "pyproject.toml", *sorted((ROOT / "proto").rglob("*.proto"))]
-    wanted = hashlib.sha256(extras.encode() + b"".join(source.read_bytes() for source in sources)).hexdigest()
-    stamp = VENV / "memtrack-install.txt"
-    if stamp.is_file() and stamp.read_text(encoding="utf-8") == wanted:
+    digest = hashlib.sha256(extras.encode() + b"".join(source.read_bytes() for source in sources)).hexdigest()
+    stamp, place = VENV / "memtrack-install.txt", f"{VENV}\n"
+    wanted, found = place + digest, stamp.read_text(encoding="utf-8") if stamp.is_file() else place
+    if found == wanted:
         return
     step(f"Setting up Python in {VENV} (a few minutes the first time)")
+    if not found.startswith(place):  # came along with a copy of the folder, and runs what lies in the old one
+        shutil.rmtree(VENV)
     if not PYTHON.is_file():
         try:
             venv.create(VENV, with_pip=True)
-        except subprocess.CalledProcessError:
+        except BaseException as error:  # interrupted, too: half of one would never work
             shutil.rmtree(VENV, ignore_errors=True)
+            if not isinstance(error, subprocess.CalledProcessError):
+                raise
             sys.exit(
                 "Python cannot make a virtual environment; on Debian and Ubuntu, install the package python3-venv."
             )
