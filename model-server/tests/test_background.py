@@ -32,6 +32,13 @@ def test_median_and_spread_of_a_five_by_five_film() -> None:
     assert made.spread[0, 0] == 0
 
 
+def test_frames_without_light_are_no_part_of_it() -> None:
+    frames = np.full((20, 6, 8), 100, np.uint8)
+    frames[5:17] = 2
+    made = background_of(frames, replace(still(20), unlit=frozenset(range(5, 17))))
+    np.testing.assert_allclose(made.median, 100, atol=0.01)
+
+
 @settings(deadline=None)
 @given(st.integers(1, 9), st.integers(0, 2**32 - 1))
 def test_order_statistics_equal_numpys(count: int, seed: int) -> None:

@@ -270,11 +270,13 @@ def test_the_edge_of_a_blank_part_is_no_cell_where_the_scene_drifts_past_it(mode
     assert columns.min() >= 99
 
 
-def test_frames_without_light_are_told(gel: SimulatedFilm, model: Model) -> None:
+def test_frames_without_light_are_told_and_hold_nothing(gel: SimulatedFilm, model: Model) -> None:
     dark = gel.film.frames.copy()
     dark[3:5] //= 20
     said: list[str] = []
-    list(detect_film(ArrayFilm(dark), model, DetectionSettings(), lambda *_: None, said.append))
+    found = list(detect_film(ArrayFilm(dark), model, DetectionSettings(), lambda *_: None, said.append))
+    assert [len(frame.detections) + len(frame.faint) for frame in found[3:5]] == [0, 0]
+    assert len(found[2].detections) > 0
     assert len(said) == 1
     assert said[0].startswith(f"2 of {len(dark)} frames are far darker")
     assert said[0].endswith(f"the first is number 4 of the {len(dark)}.")

@@ -11,7 +11,7 @@ from memtrack.registration import overlap
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.simulation.scenes import mottled
-from memtrack.stabilisation import measure_motion
+from memtrack.stabilisation import FilmMotion, measure_motion
 
 
 def drifting(drift: np.ndarray, *, noise: float = 4.0, lamp: np.ndarray | None = None, cells: int = 0) -> ArrayFilm:
@@ -96,6 +96,20 @@ def test_swimmers_in_front_of_nothing_are_no_drift() -> None:
     assert np.abs(measured(ArrayFilm(frames.astype(np.uint8)))).max() == 0
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_bright_swimmer_on_black_is_no_scene(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    frames = rng.normal(0, 1, (40, 200, 260))
+    columns, rows = np.arange(260), np.arange(200)
+    for place, angle in zip(rng.uniform([50, 40], [210, 160], (3, 2)), rng.uniform(0, 2 * np.pi, 3), strict=True):
+        for i, frame in enumerate(frames):
+            x, y = place + i * np.array([np.cos(angle), np.sin(angle)])
+            frame += 60 * np.outer(np.exp(-np.square(rows - y) / 8), np.exp(-np.square(columns - x) / 8))
+    motion = measure_motion(ArrayFilm(np.clip(frames, 0, 255).astype(np.uint8)), stabilise=True, report=lambda *_: None)
+    assert not motion.drift.any()
+    assert motion.unmeasured
+
+
 def test_a_body_that_outshines_the_scene_does_not_hide_its_drift() -> None:
     rng = np.random.default_rng(3)
     drift = np.outer(np.arange(60), [0.1, -0.05])
@@ -144,6 +158,21 @@ def test_gain_undoes_the_flicker() -> None:
     np.testing.assert_allclose(motion.gain * lamp, np.median(lamp), rtol=0.01)
     assert not motion.drift.any()
     assert not motion.unmeasured
+
+
+def test_the_lamp_is_not_told_by_the_mean_of_a_film_less_its_background() -> None:
+    less_background = np.random.default_rng(4).normal(0, 5, (40, 120, 160)).astype(np.float32)
+    for offset, lit in ((0.3, False), (100.0, True)):
+        motion = measure_motion(ArrayFilm(less_background + offset), stabilise=False, report=lambda *_: None)
+        assert (motion.gain != 1).any() == lit
+        assert not motion.unlit
+
+
+def test_frames_are_sampled_evenly_from_the_lit_ones() -> None:
+    motion = FilmMotion(np.zeros((12, 2)), np.ones(12), unlit=frozenset(range(4, 8)))
+    assert motion.sampled(range(12), 4) == [0, 2, 8, 11]
+    assert motion.sampled(range(2, 10), 9) == [2, 3, 8, 9]
+    assert motion.sampled(range(4, 8), 2) == [4, 7]
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 1), (3, 1, 500), (2, 40, 40), (1, 300, 300)])

@@ -80,12 +80,12 @@ def temporal_background(
     """
     h, w = film.height, film.width
     within = range(film.frame_count) if frames is None else frames
-    chosen = np.unique(np.linspace(within[0], within[-1], min(len(within), SAMPLES)).astype(int))
+    chosen = motion.sampled(within, SAMPLES)
     places = {i: split_drift(motion.drift[i])[0] for i in within}
     xs, ys = [-x for x, _ in places.values()], [-y for _, y in places.values()]
     origin = (min(xs), min(ys))
     canvas_w, canvas_h = max(xs) - origin[0] + w, max(ys) - origin[1] + h
-    first = film.frame(int(chosen[0]))
+    first = film.frame(chosen[0])
     packed = first.dtype == np.uint8
     dtype = np.dtype(np.uint16 if packed else np.float32)
     # Places that no frame shows get `low`.
@@ -100,7 +100,7 @@ def temporal_background(
     def put(stack: np.ndarray, start: int, sample: tuple[int, np.ndarray]) -> None:
         """What a sample shows of the canvas from row `start` on, into its image of the stack."""
         k, frame = sample
-        image, i = stack[k], int(chosen[k])
+        image, i = stack[k], chosen[k]
         top, left = -places[i][1] - origin[1], -places[i][0] - origin[0]
         a, b = max(start, top), min(start + len(image), top + h)
         if a < b:
@@ -112,7 +112,7 @@ def temporal_background(
     for start in starts:
         height = min(rows, canvas_h - start)
         stack = np.full((len(chosen), height, canvas_w), _missing(dtype), dtype)
-        samples = ((k, film.frame(int(i))) for k, i in enumerate(chosen))
+        samples = ((k, film.frame(i)) for k, i in enumerate(chosen))
         with ahead(partial(put, stack, start), samples, threads) as images:
             for _ in images:
                 done += 1

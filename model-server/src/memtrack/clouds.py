@@ -38,7 +38,7 @@ def change_besides_clouds(background: Background, film: Film, motion: FilmMotion
         frames: consecutive ones of the film, those the background is made of.
     """
     besides = []
-    for i in np.unique(np.linspace(frames[0], frames[-1], SIGHTS).astype(int)).tolist():
+    for i in motion.sampled(frames, SIGHTS):
         seen = background.window(split_drift(motion.drift[i])[0], film.height, film.width)
         change = aligned_frame(film, motion, i) - background.median[seen]
         besides.append([_typical(change - coarse(change, reach, SHRINK)) for reach in (WIDE_PX, REACH_PX)])

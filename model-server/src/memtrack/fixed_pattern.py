@@ -40,10 +40,10 @@ def fixed_pattern(film: Film, motion: FilmMotion, background: Background, frames
     drift = motion.drift[frames.start : frames.stop]
     if np.hypot(*np.ptp(drift, axis=0)) < LEAST_DRIFT_PX:
         return None
-    chosen = np.unique(np.linspace(frames.start, frames.stop - 1, SAMPLES).astype(int))
+    chosen = motion.sampled(frames, SAMPLES)
     total, squares = np.zeros((2, film.height, film.width), np.float32)
     for i in chosen:
-        rest = _without_scene(film, motion, background, int(i))
+        rest = _without_scene(film, motion, background, i)
         cv2.accumulate(rest, total)
         cv2.accumulateSquare(rest, squares)
     n = len(chosen)

@@ -94,6 +94,8 @@ def detect_film(
 
     def found(by: Nets, i: int, on_grid: Detections) -> FrameDetections:
         drift, pruner = view.motion.drift[i], settings.pruner(by.model.card, view.scale)
+        if i in view.motion.unlit:
+            on_grid = Detections.empty()  # what frames beside it show is not in it
         candidates = to_film(on_grid, split_drift(drift)[1], view.factors)
         kept, counts = prune(candidates, pruner, region)
         drift_x, drift_y = drift / view.factors

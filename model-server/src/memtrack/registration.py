@@ -77,6 +77,14 @@ def likeness(reference: Reference, image: Image, shift: Float64[np.ndarray, " 2"
     return float(np.vdot(still, moved)) / norm if norm > 0 else 0.0
 
 
+def typical_likeness(first: Image, second: Image) -> float:
+    """Median over the blocks of the field of the correlation, in [-1, 1], of two band-passed images of one size: a few
+    bright cells make whole images alike, but not most of their blocks."""
+    shared, squared, others = (_block_sums(product) for product in (first * second, first * first, second * second))
+    size = np.sqrt(squared * others)
+    return float(np.median(np.divide(shared, size, out=np.zeros_like(size), where=size > 0)))
+
+
 def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndarray, " 2"], float]:
     """One least-squares step: the shift most blocks agree on, and its standard error."""
     scale = 1.4826 * float(np.median(np.abs(residual[::3, ::3]))) + 1e-6

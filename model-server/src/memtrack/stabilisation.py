@@ -20,7 +20,7 @@ from jaxtyping import Float32, Float64, Shaped
 from memtrack.errors import FilmError
 from memtrack.film import Film
 from memtrack.lookahead import ahead
-from memtrack.registration import MIN_EDGE, Image, Reference, likeness, overlap, register
+from memtrack.registration import MIN_EDGE, Image, Reference, likeness, overlap, register, typical_likeness
 from memtrack.resampling import read_shifted
 
 Progress = Callable[[int, int], None]
@@ -33,6 +33,10 @@ SHARED_SCENE = ((0.5, 0.76), (0.25, 0.95))
 each other. The second way is for noise or a passing body that outshines the scene in single frames. 35 of 36 simulated
 films without their background, whose noise may line up by a drift that is none, are let through neither way, and 16 of
 459 others."""
+SCENE_EVERYWHERE = 0.5
+"""And the two halves' scenes must be so alike in most blocks of the field. Where all frames were laid over one bright
+swimmer on black, which passed for the scene, that is 0.0 to 0.1; in 108 simulated films that show a scene, 0.9 or more.
+"""
 NO_SHARED_SCENE = (
     "The frames share no scene, as where nothing but cells is seen, so no drift of the stage could be told, "
     "and none was undone."
@@ -64,6 +68,11 @@ class FilmMotion:
     unlit: frozenset[int] = frozenset()
     unmeasured: str = ""
 
+    def sampled(self, frames: range, most: int) -> list[int]:
+        """Up to `most` of consecutive `frames`, spread evenly, in their order; unlit ones only where all are."""
+        lit = [i for i in frames if i not in self.unlit] or frames
+        return [lit[int(k)] for k in np.linspace(0, len(lit) - 1, min(len(lit), most))]
+
     def corrected(self, values: Image, index: int, rows: slice = slice(None)) -> Image:
         """Frame `index`, or some rows of it, as an even lamp and a clean camera would have it taken; works in place."""
         if self.gain[index] != 1:
@@ -92,45 +101,48 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
             f"from {LEAST_EDGE_PX} x {LEAST_EDGE_PX} pixels on, so none was."
         )
     passes = 2 if shrinks else 1
-    means, brightest = np.empty(count), -math.inf
+    means, lowest, brightest = np.empty(count), math.inf, -math.inf
     chain = _Chain()
     drift = np.zeros((count, 2))
     frames = (film.frame(i) for i in range(count))
     with ahead(partial(_summary, shrink=4 if shrinks else None), frames, threads) as summaries:
-        for i, (mean, highest, small) in enumerate(summaries):
+        for i, (mean, low, high, small) in enumerate(summaries):
             if not math.isfinite(mean):
                 raise FilmError(
                     f"frame {i + 1} of the {count} used holds values that are not finite (NaN or infinity): replace "
                     "them, NaN with Process > Noise > Remove NaNs, infinity with Remove Outliers, and run again"
                 )
-            means[i], brightest = mean, max(brightest, highest)
+            means[i], lowest, brightest = mean, min(lowest, low), max(brightest, high)
             if small is not None:
                 drift[i] = chain.add(small) * 4
             report(i + 1, passes * count)
     if shrinks:
         refined = _refine(film, drift, report, threads)
         drift, unmeasured = (np.zeros_like(drift), NO_SHARED_SCENE) if refined is None else (refined, "")
-    gain, unlit = _gains(means)
+    gain, unlit = _gains(means, lowest)
     # A few flashes do not lower the ceiling of the whole film.
     return FilmMotion(
         drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit, unmeasured=unmeasured
     )
 
 
-def _summary(values: Frame, shrink: int | None) -> tuple[float, float, Float32[np.ndarray, "small_h small_w"] | None]:
-    """Mean, not finite where any value is not, and highest value of a frame, and its band-pass."""
+def _summary(
+    values: Frame, shrink: int | None
+) -> tuple[float, float, float, Float32[np.ndarray, "small_h small_w"] | None]:
+    """Mean, not finite where any value is not, lowest and highest value of a frame, and its band-pass."""
     frame = values.astype(np.float32)
     if not np.isfinite(cv2.norm(frame, cv2.NORM_L1)):
-        return math.nan, math.nan, None
-    return cv2.mean(frame)[0], float(frame.max()), None if shrink is None else _band_pass(frame, shrink)
+        return math.nan, math.nan, math.nan, None
+    bands = None if shrink is None else _band_pass(frame, shrink)
+    return cv2.mean(frame)[0], float(frame.min()), float(frame.max()), bands
 
 
-def _gains(means: Float64[np.ndarray, " frame"]) -> tuple[Float64[np.ndarray, " frame"], frozenset[int]]:
+def _gains(means: Float64[np.ndarray, " frame"], lowest: float) -> tuple[Float64[np.ndarray, " frame"], frozenset[int]]:
     """The factor for each frame, and the frames that no factor helps; these are few, or the means say nothing of the
-    lamp, as in dark or signed images."""
+    lamp, as in dark images, and in signed ones, whose values reach as far below 0 as the means lie above it."""
     usual = float(np.median(means))
     lit = (means > 0.2 * usual) & (means < 5 * usual)
-    if usual <= 0 or lit.mean() < 0.9:
+    if usual <= max(0, -lowest) or lit.mean() < 0.9:
         return np.ones(len(means)), frozenset()
     gain = np.divide(usual, means, out=np.ones(len(means)), where=lit)
     return gain, frozenset(np.flatnonzero(~lit).tolist())
@@ -147,7 +159,7 @@ def _refine(
     aligned = [_aligned(_band_pass(film.frame(int(i)).astype(np.float32), 2), (drift[i] - origin) / 2) for i in chosen]
     reference = Reference(_median_where_known(np.stack(aligned)))
     halves = [_median_where_known(np.stack(half)) for half in (aligned[::2], aligned[1::2])]
-    repeated = likeness(Reference(halves[0]), halves[1], np.zeros(2))
+    repeated, everywhere = likeness(Reference(halves[0]), halves[1], np.zeros(2)), typical_likeness(*halves)
 
     def place(item: tuple[int, Frame]) -> tuple[Float64[np.ndarray, " 2"], float, float]:
         i, frame = item
@@ -161,7 +173,7 @@ def _refine(
         for i, (refined[i], errors[i], alike[i]) in enumerate(places):
             report(count + i + 1, 2 * count)
     shared = any(np.median(alike) >= least and repeated >= enough for least, enough in SHARED_SCENE)
-    if np.median(errors) * 2 > AGREEMENT_PX or not shared:
+    if np.median(errors) * 2 > AGREEMENT_PX or everywhere < SCENE_EVERYWHERE or not shared:
         return None
     lost = (errors * 2 > 4 * AGREEMENT_PX) | (alike < LOST_LIKENESS * np.median(alike))
     if lost.any() and not lost.all():

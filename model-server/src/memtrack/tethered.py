@@ -124,11 +124,10 @@ def _samples(
 ) -> Iterator[_Sample]:
     """What is around each spot in some of the frames, and whether these show all of it."""
     left, top = background.origin
-    for i in np.unique(np.linspace(frames[0], frames[-1], min(len(frames), SAMPLES)).astype(int)).tolist():
+    for i in motion.sampled(frames, SAMPLES):
         alive()
-        if i not in motion.unlit:
-            x, y = split_drift(motion.drift[i])[0]
-            yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
+        x, y = split_drift(motion.drift[i])[0]
+        yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
 
 
 def _moves_by_itself(spots: Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
