@@ -7,7 +7,7 @@ import pytest
 
 from memtrack.errors import FilmError
 from memtrack.film import ArrayFilm
-from memtrack.registration import overlap
+from memtrack.registration import _block_shift, overlap
 from memtrack.simulation.families import draw_recipe
 from memtrack.simulation.film import simulate
 from memtrack.simulation.scenes import mottled
@@ -197,3 +197,11 @@ def test_overlapping_windows_show_the_same_places() -> None:
     target, source = overlap(still.shape, np.array([-3, 2]))
     np.testing.assert_array_equal(still[target], moved[source])
     assert still[target].shape == (3, 3)
+
+
+def test_two_parts_of_a_black_field_that_move_in_different_ways_tell_no_shift() -> None:
+    along_x, along_y = np.zeros((2, 96, 96), np.float32)
+    along_x[:12, :12], along_y[24:36, 24:36] = 1, 1
+    shift, error = _block_shift((along_x + along_y) * np.float32(1e-6), along_x, along_y)
+    assert not shift.any()
+    assert np.isinf(error)

@@ -105,6 +105,8 @@ def _block_shift(residual: Image, gx: Image, gy: Image) -> tuple[Float64[np.ndar
     common = np.array([_weighted_median(shifts[:, axis], trust) for axis in range(2)])
     spread = max(_weighted_median(np.abs(shifts[:, axis] - common[axis]), trust) for axis in range(2))
     close = np.abs(shifts - common).max(axis=1) <= 2.5 * spread + 1e-9
+    if not trust[close].any():
+        return np.zeros(2), np.inf  # no block agrees along both axes, as where one robot moves on pure black
     mean = np.average(shifts[close], axis=0, weights=trust[close])
     effective = 1 / np.square(trust).sum()
     return mean, 1.4826 * spread / float(np.sqrt(effective))
