@@ -26,6 +26,13 @@ def test_the_shipped_recipe_can_be_read_and_is_the_shipped_models() -> None:
         ("[model]\nname = 3", r"\[model\]: name is 3, expected str"),
         ("[modell]\nname = 'a'", r"unknown part \['modell'\]"),
         ("[optimisation]\nbatch = 2", r"the part \[model\] is missing"),
+        ("[[model]]\nname = 'a'", r"model is no single part: write it as \[model\], in single brackets"),
+        ("optimisation = 5\n[model]\nname = 'a'", r"optimisation is no single part: write it as \[optimisation\]"),
+        (
+            "[model]\nname = 'a'\n[training]\nfamily = 'water'\ncount = 1\nseed = 1",
+            r"training is no list of parts: write it as \[\[training\]\], in double brackets",
+        ),
+        ("validation = ['a']\n[model]\nname = 'a'", r"validation is no list of parts: write it as \[\[validation"),
         ("[model]\nname = 'a'\nfeatures = 'x'", r"\[model\]: features is 'x', use one of motion"),
         ("[model]\nname = 'Mein Modell'", r"\[model\]: 'Mein Modell' is no model name or version: use 1 to 64 of a-z"),
         ("[model]\nname = 'a'\narchitecture = 'yolo'", "architecture is 'yolo', use one of compact, resnet50_fpn"),
@@ -60,6 +67,12 @@ def test_a_recipe_that_is_not_one_is_refused(text: str, message: str, tmp_path: 
     path.write_text(text, encoding="utf-8")
     with pytest.raises(SettingsError, match=message):
         read_config(path)
+
+
+def test_a_recipe_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "r.toml"
+    path.write_text((RECIPES / "default.toml").read_text(encoding="utf-8"), encoding="utf-8-sig")
+    assert read_config(path) == read_config(RECIPES / "default.toml")
 
 
 def test_every_default_of_a_recipe_is_in_its_range(tmp_path: Path) -> None:

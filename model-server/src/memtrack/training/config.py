@@ -118,11 +118,11 @@ def read_config(path: Path) -> TrainingConfig:
     """The recipe in `path`.
 
     Raises:
-        SettingsError: the file cannot be read, or a key is unknown, missing, of the wrong type or out of range; the
-            message names it.
+        SettingsError: the file cannot be read, or a part or key is unknown, missing, of the wrong type or out of range;
+            the message names it.
     """
     try:
-        values = tomllib.loads(path.read_text(encoding="utf-8"))
+        values = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise SettingsError(f"cannot read the training recipe {path}: {error.strerror}; check the path") from error
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
@@ -133,6 +133,11 @@ def read_config(path: Path) -> TrainingConfig:
         raise SettingsError(f"{path.name}: unknown part {sorted(set(values) - known)}: use {', '.join(sorted(known))}")
     if "model" not in values:
         raise SettingsError(f"{path.name}: the part [model] is missing")
+    for name, part in values.items():
+        if name in tables and not (isinstance(part, list) and all(isinstance(row, dict) for row in part)):
+            raise SettingsError(f"{path.name}: {name} is no list of parts: write it as [[{name}]], in double brackets")
+        if name not in tables and not isinstance(part, dict):
+            raise SettingsError(f"{path.name}: {name} is no single part: write it as [{name}], in single brackets")
     rows: dict[str, Any] = {
         name: tuple(_make(kind, row, f"{path.name} [[{name}]]") for row in values.get(name, ()))
         for name, kind in tables.items()
