@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import argparse
+import errno
+import os
 import sys
+import tempfile
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -150,7 +154,17 @@ widths = [4, 4, 6]
 """
     path = tmp_path / "centred.toml"
     path.write_text(text, encoding="utf-8")
-    assert command.run(arguments(command, str(path))) == 0
+    unlink = os.unlink
+
+    def held(file: str | Path, **options: Any) -> None:
+        if Path(file).name == "centres.bin":
+            raise PermissionError(errno.EACCES, "mapped, as Windows has it")
+        unlink(file, **options)
+
+    with monkeypatch.context() as windows:
+        windows.setattr(os, "unlink", held)
+        windows.setattr(tempfile, "tempdir", str(tmp_path))
+        assert command.run(arguments(command, str(path))) == 0
     kept, made = load_model("default", "7").card, load_model("centred").card
     assert {name: made.files[name] for name in kept.files} == kept.files
     assert (made.thresholds, made.decoder) == (kept.thresholds, kept.decoder)

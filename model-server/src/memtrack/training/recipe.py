@@ -79,7 +79,8 @@ def train(
             + annotated_samples(own, spec, config.model.cell_length_px, base, seed=config.optimisation.seed)
         )
     training, validation = parts
-    with tempfile.TemporaryDirectory() as temporary:
+    # Windows deletes no file that is mapped, as an engine has its weights: what is left is the system's to clear away.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         detector = _detector(config, training, validation, workspace, Path(temporary), device, report)
         centre_files = _centre_files(config, detector, training, Path(temporary), device, report)
         refiner = OpenVinoRefiner(centre_files[CENTRE_OPENVINO]) if centre_files else None
