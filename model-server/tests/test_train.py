@@ -4,13 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import tifffile
 import torch
 
-from memtrack.errors import ModelNotFoundError, SettingsError
+from memtrack.errors import InvalidInputError, ModelNotFoundError, SettingsError
 from memtrack.motion import MOTION
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
 from memtrack.training.figures import LOSSES
-from memtrack.training.films import SimulatedSet
+from memtrack.training.films import Annotated, SimulatedSet
 from memtrack.training.optimise import Workspace, optimise
 from memtrack.training.recipe import train
 from memtrack.training.samples import FilmSamples
@@ -39,6 +40,26 @@ def test_a_missing_model_to_start_from_is_said_before_films_are_made(tmp_path: P
     with pytest.raises(ModelNotFoundError, match="there is no model nobody"):
         train(config, workspace, tmp_path, base=tmp_path, device="cpu", workers=1, report=silent)
     assert not workspace.samples.exists()
+
+
+def test_an_annotated_film_that_cannot_be_used_is_said_before_films_are_made(tmp_path: Path) -> None:
+    config, _ = small_training()
+    tifffile.imwrite(tmp_path / "a.tif", np.zeros((3, 32, 32), np.uint8), photometric="minisblack")
+    workspace = Workspace(tmp_path / "work")
+
+    def refused(film: str, tracks: str) -> str:
+        entries = Annotated("a.tif", "a.csv"), Annotated(film, tracks, role="validation")
+        annotated = replace(config, annotated=entries)
+        with pytest.raises(InvalidInputError) as caught:
+            train(annotated, workspace, tmp_path, base=tmp_path, device="cpu", workers=1, report=silent)
+        assert not workspace.samples.exists()
+        return str(caught.value)
+
+    (tmp_path / "a.csv").write_text("track,frame,x,y,motility\n0,0,5,5,low\n", encoding="utf-8")
+    (tmp_path / "b.csv").write_text("track,frame,x,y\n0,0,5,5\n", encoding="utf-8")
+    assert "there is no film" in refused("missing.tif", "a.csv")
+    assert "cannot read" in refused("a.tif", "missing.csv")
+    assert "b.csv has bacteria without a motility class" in refused("a.tif", "b.csv")
 
 
 def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -25,7 +26,7 @@ from memtrack.simulation.film import simulate
 from memtrack.tracks import Motility, TrackTable
 from memtrack.tracks_io import read_tracks
 from memtrack.training.samples import FilmSamples, extract
-from memtrack.video.opening import open_film
+from memtrack.video.opening import OpenedFilm, open_film
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +76,17 @@ def simulated_samples(
     return [_load(path, job[0].family) for path, job in zip(paths, jobs, strict=True)]
 
 
+def check_annotated(films: Sequence[Annotated], base: Path) -> None:
+    """Opens each film and reads its tracks, to find at once what `annotated_samples` would find after hours.
+
+    Raises:
+        InvalidInputError, SettingsError: see `annotated_samples`.
+    """
+    for entry in films:
+        with _opened(entry, base):
+            pass
+
+
 def annotated_samples(
     films: Sequence[Annotated], spec: FeatureSpec, cell_length_px: tuple[float, float], base: Path, *, seed: int
 ) -> list[FilmSamples]:
@@ -89,9 +101,7 @@ def annotated_samples(
     """
     made = []
     for number, entry in enumerate(films):
-        given = Calibration(entry.pixel_size_um or None, entry.frame_interval_seconds or None)
-        with open_film(base / entry.film, given) as film:
-            truth = with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
+        with _opened(entry, base) as (film, truth):
             scale = scale_to(cell_length_px, film.calibration)
             whole = mended(film)
             at_scale = scaled(whole, scale)
@@ -100,6 +110,13 @@ def annotated_samples(
             rng = np.random.default_rng([seed, number])
             made.append(extract(at_scale, truth, spec, frames=entry.frames, rng=rng, family=Path(entry.film).stem))
     return made
+
+
+@contextlib.contextmanager
+def _opened(entry: Annotated, base: Path) -> Iterator[tuple[OpenedFilm, TrackTable]]:
+    given = Calibration(entry.pixel_size_um or None, entry.frame_interval_seconds or None)
+    with open_film(base / entry.film, given) as film:
+        yield film, with_motility(read_tracks(base / entry.tracks, film.calibration), entry.tracks)
 
 
 def with_motility(truth: TrackTable, name: str) -> TrackTable:

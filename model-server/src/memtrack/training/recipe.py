@@ -24,7 +24,7 @@ from memtrack.training import figures, thresholds
 from memtrack.training.centres import centre_samples, optimise_centres
 from memtrack.training.config import TrainingConfig
 from memtrack.training.export import export
-from memtrack.training.films import annotated_samples, simulated_samples
+from memtrack.training.films import annotated_samples, check_annotated, simulated_samples
 from memtrack.training.optimise import (
     Report,
     Workspace,
@@ -56,7 +56,9 @@ def train(
     loss curve and precision-recall curves; the checkpoint of a finished training is deleted.
 
     Raises:
-        SettingsError: the workspace holds the checkpoint of a training by another recipe.
+        InvalidInputError: an annotated film or its tracks cannot be read.
+        SettingsError: the workspace holds the checkpoint of a training by another recipe, a film lacks its scale, or
+            the loss is no number any more.
         ModelNotFoundError: the model to start from, or that for crowds, is missing or does not fit.
     """
     started = time.monotonic()
@@ -65,6 +67,7 @@ def train(
     read_checkpoint(config, workspace)
     new_net(config.model)
     crowds = crowds_model(config.model)
+    check_annotated(config.annotated, base)
     spec = SPECS[config.model.features]
 
     def films(done: int, total: int) -> None:
