@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import ast
+import errno
+import os
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -56,6 +59,47 @@ def test_cached_samples_are_read_back(tmp_path: Path) -> None:
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*.npy")} == stamps
     np.testing.assert_array_equal(first[1].features, again[1].features)
     np.testing.assert_array_equal(first[1].truth[2], again[1].truth[2])
+
+
+def test_what_a_training_that_broke_off_left_is_no_hindrance(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sets = [SimulatedSet("water", 1, 7, size=96, frames=3)]
+    simulated_samples(sets, MOTION, tmp_path)
+    (made,) = tmp_path.iterdir()
+    shutil.move(made, tmp_path / f"{made.name}.{os.getpid()}")  # its process had the number of ours
+    assert len(simulated_samples(sets, MOTION, tmp_path)) == 1
+    shutil.rmtree(made)
+
+    def full(path: Path, features: np.ndarray) -> None:
+        path.write_bytes(b"half")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(np, "save", full)
+    with pytest.raises(OSError, match="No space left"):
+        simulated_samples(sets, MOTION, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == [f"{made.name}.{os.getpid()}"]
+
+
+def test_a_film_that_another_training_has_made_meanwhile_is_taken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sets = [SimulatedSet("water", 1, 7, size=96, frames=3)]
+    save = np.save
+
+    def slowly(path: Path, features: np.ndarray) -> None:
+        monkeypatch.undo()
+        simulated_samples(sets, MOTION, tmp_path)
+        save(path, features)
+
+    monkeypatch.setattr(np, "save", slowly)
+    assert len(simulated_samples(sets, MOTION, tmp_path)) == 1
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_more_workers_than_windows_can_wait_for_are_not_started(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert simulated_samples([], MOTION, tmp_path, workers=100) == []
 
 
 def test_samples_are_made_anew_when_any_code_they_are_made_by_has_changed() -> None:

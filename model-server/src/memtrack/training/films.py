@@ -7,6 +7,9 @@ import contextlib
 import hashlib
 import json
 import os
+import shutil
+import sys
+import uuid
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, replace
@@ -69,7 +72,9 @@ def simulated_samples(
     """
     jobs = [(s, k, spec, cache) for s in sets for k in range(s.count)]
     paths = []
-    with ProcessPoolExecutor(workers) as pool:
+    # Python on Windows cannot wait for more.
+    processes = min(workers, 61) if sys.platform == "win32" else workers
+    with ProcessPoolExecutor(processes) as pool:
         for done, path in enumerate(map(_make, jobs) if workers == 1 else pool.map(_make, jobs, chunksize=4)):
             paths.append(path)
             report(done + 1, len(jobs))
@@ -146,12 +151,18 @@ def _make(job: tuple[SimulatedSet, int, FeatureSpec, Path]) -> Path:
     made = simulate(recipe, int(rng.integers(2**31)))
     stabilise = bool(made.drift.any()) or rng.random() < 0.5
     samples = extract(made.film, made.truth, spec, frames=films.frames, rng=rng, stabilise=stabilise)
-    partial = path.with_name(f"{path.name}.{os.getpid()}")
-    partial.mkdir(parents=True)
-    np.save(partial / "features.npy", samples.features)
-    counts = np.array([len(rows) for rows in samples.truth])
-    np.savez(partial / "truth.npz", rows=np.concatenate(samples.truth), counts=counts)
-    os.replace(partial, path)
+    partial = path.with_name(f"{path.name}.{uuid.uuid4().hex}")
+    try:
+        partial.mkdir(parents=True)
+        np.save(partial / "features.npy", samples.features)
+        counts = np.array([len(rows) for rows in samples.truth])
+        np.savez(partial / "truth.npz", rows=np.concatenate(samples.truth), counts=counts)
+        os.replace(partial, path)
+    except BaseException as error:
+        shutil.rmtree(partial, ignore_errors=True)
+        # Another training in this workspace may have made the same film meanwhile.
+        if not (isinstance(error, OSError) and path.is_dir()):
+            raise
     return path
 
 
