@@ -53,6 +53,17 @@ def test_calibrated_scores_are_shares_of_right_ones() -> None:
     assert offset == pytest.approx(-0.6, abs=0.1)
 
 
+def test_scores_stay_as_they_are_where_films_cannot_tell_what_they_are_worth() -> None:
+    rng = np.random.default_rng(0)
+    scores = rng.uniform(0.1, 0.9, 1000).astype(np.float32)
+    few = np.arange(1000) < 19
+    for right in (np.zeros(1000, bool), few, ~few, rng.random(1000) < 1 - scores, rng.random(1000) < 0.5):
+        assert calibration(scores, right) == (1.0, 0.0)
+    slope, _ = calibration(scores, rng.random(1000) < scores)
+    assert slope == pytest.approx(1, abs=0.2)
+    assert slope != 1
+
+
 def test_one_probability_bounds_all_levels_and_maximum_precision_is_the_stricter_one() -> None:
     rng = np.random.default_rng(1)
     logits = rng.normal(0, 2, 9000)

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,13 +9,15 @@ import tifffile
 import torch
 
 from memtrack.errors import InvalidInputError, ModelNotFoundError, SettingsError
+from memtrack.models import load_model
 from memtrack.motion import MOTION
 from memtrack.training.config import ModelSettings, Optimisation, TrainingConfig
 from memtrack.training.figures import LOSSES
 from memtrack.training.films import Annotated, SimulatedSet
 from memtrack.training.optimise import Workspace, optimise
-from memtrack.training.recipe import train
+from memtrack.training.recipe import summary, train
 from memtrack.training.samples import FilmSamples
+from memtrack.training.thresholds import Scored
 from spots import samples
 
 
@@ -60,6 +63,15 @@ def test_an_annotated_film_that_cannot_be_used_is_said_before_films_are_made(tmp
     assert "there is no film" in refused("missing.tif", "a.csv")
     assert "cannot read" in refused("a.tif", "missing.csv")
     assert "b.csv has bacteria without a motility class" in refused("a.tif", "b.csv")
+
+
+def test_figures_of_a_model_that_finds_nothing_right_are_json() -> None:
+    nothing = np.full(3, -1)
+    wrong = np.array([0.9, 0.5, 0.2], np.float32), np.zeros(3, int), np.zeros(3, bool), np.full(3, np.nan), nothing
+    model = load_model()
+    card = summary(Scored(*wrong, np.array([4, 0, 0]), 2), [], model.engine(), model.card.decoder)
+    assert card["centre_rms_px"] is None
+    assert json.loads(json.dumps(card, allow_nan=False))["f1"] == 0
 
 
 def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:

@@ -123,7 +123,7 @@ widths = [4, 4, 6]
 
 @pytest.mark.filterwarnings("ignore")  # as above
 def test_a_training_can_keep_the_net_and_learn_its_centres_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("nncf")
     monkeypatch.setenv("MEMTRACK_MODELS", str(tmp_path / "models"))
@@ -165,6 +165,8 @@ widths = [4, 4, 6]
         windows.setattr(os, "unlink", held)
         windows.setattr(tempfile, "tempdir", str(tmp_path))
         assert command.run(arguments(command, str(path))) == 0
+    # The one validation film is a thing too small for it to find anything in.
+    assert "nothing that the model finds in the validation films is right" in capsys.readouterr().err
     kept, made = load_model("default", "7").card, load_model("centred").card
     assert {name: made.files[name] for name in kept.files} == kept.files
     assert (made.thresholds, made.decoder) == (kept.thresholds, kept.decoder)

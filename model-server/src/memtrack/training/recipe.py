@@ -90,6 +90,11 @@ def train(
         scored = thresholds.score_films(validation, detector.engine, detector.decoder, refiner)
         results = summary(scored, validation, detector.engine, detector.decoder)
         report(json.dumps(results))
+        if not scored.found.any():
+            report(
+                "nothing that the model finds in the validation films is right: check that their tracks lie on the "
+                "bacteria, or train for longer"
+            )
         minutes = (time.monotonic() - started) / 60
         card = ModelCard(
             name=config.model.name,
@@ -190,14 +195,14 @@ def summary(scored: thresholds.Scored, films: list[FilmSamples], engine: Engine,
         return {"frames": scored.frames, "f1": 0.0}
     best = int(whole.f1.argmax())
     threshold = float(whole.thresholds[best])
-    right = scored.found & (scored.scores >= threshold)
+    error = scored.error[scored.found & (scored.scores >= threshold)]
     out: dict[str, object] = {
         "frames": scored.frames,
         "threshold": round(threshold, 3),
         "precision": round(float(whole.precision[best]), 4),
         "recall": round(float(whole.recall[best]), 4),
         "f1": round(float(whole.f1[best]), 4),
-        "centre_rms_px": round(float(np.sqrt(np.mean(np.square(scored.error[right])))), 3),
+        "centre_rms_px": round(float(np.sqrt(np.mean(np.square(error)))), 3) if len(error) else None,
     }
     for family in sorted({film.family for film in films}):
         part = thresholds.score_films([f for f in films if f.family == family], engine, decoder)

@@ -17,6 +17,9 @@ from memtrack.training.samples import IGNORED, LEVEL, FilmSamples, X, Y
 
 MATCH_PX = 8.0
 """A detection is right when its centre is this near a bacterium's: stricter than the paper's IoU 0.1 (24 px)."""
+LEAST_CALIBRATED = 20
+"""Right detections, and wrong ones, that a calibration needs."""
+LEAST_SLOPE = 0.2
 SURE_PRECISION = 0.98
 EVEN_F1 = 0.003
 """Differences of F1 below this are nothing. Of bounds that are even the lowest is taken: what it finds besides, the
@@ -96,7 +99,10 @@ def match(found: Detections, truth: Float32[np.ndarray, "n 4"]) -> tuple[np.ndar
 
 def calibration(scores: Float32[np.ndarray, " n"], found: Bool[np.ndarray, " n"]) -> tuple[float, float]:
     """Slope and offset that turn the logits of scores into probabilities of being right (Platt 1999), by Newton's
-    method."""
+    method; 1 and 0, which leave the scores as they are, where there are too few to tell or higher scores are hardly
+    righter."""
+    if min(found.sum(), (~found).sum()) < LEAST_CALIBRATED:
+        return 1.0, 0.0
     x = np.stack([_logit(scores), np.ones(len(scores))], axis=1)
     y = found.astype(np.float64)
     weights = np.array([1.0, 0.0])
@@ -107,7 +113,8 @@ def calibration(scores: Float32[np.ndarray, " n"], found: Bool[np.ndarray, " n"]
         weights = weights + np.clip(step, -1, 1)
         if np.abs(step).max() < 1e-8:
             break
-    return float(weights[0]), float(weights[1])
+    slope, offset = (float(weight) for weight in weights)
+    return (slope, offset) if slope > LEAST_SLOPE else (1.0, 0.0)
 
 
 def curve(scored: Scored, level: Level | None = None) -> Curve:
@@ -163,12 +170,8 @@ def _bounds(pooled: Curve) -> dict[str, float]:
 
 
 def _level_fit(scored: Scored, level: Level) -> tuple[float, float]:
-    """`calibration` of one level's detections; the scores as they are where there are too few to tell."""
     mine = scored.levels == level
-    if min((scored.found & mine).sum(), (~scored.found & mine).sum()) < 20:
-        return 1.0, 0.0
-    slope, offset = calibration(scored.scores[mine], scored.found[mine])
-    return (slope, offset) if slope > 0.2 else (1.0, 0.0)
+    return calibration(scored.scores[mine], scored.found[mine])
 
 
 def _logit(p: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
