@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 from memtrack.channels import NEUTRAL
+from memtrack.errors import SettingsError
 from memtrack.motion import MOTION
 from memtrack.refinement import EDGE_PX
 from memtrack.training.centres import NUDGE_PX, CentreSamples, augmented, optimise_centres
@@ -51,3 +52,12 @@ def test_what_is_learnt_is_where_the_bacterium_is() -> None:
         out = net(torch.from_numpy(np.ascontiguousarray(crops))).numpy()
     before, after = (np.sqrt(np.square(e).mean()) for e in (unseen.offsets, unseen.offsets - out[:, :2]))
     assert after < 0.25 < 0.6 < before
+
+
+def test_a_loss_that_is_no_number_ends_the_training_of_centres_at_once() -> None:
+    settings = Refinement(iterations=9, batch=8, widths=(4, 8, 8), learning_rate=1e30)
+    said: list[str] = []
+    with pytest.raises(
+        SettingsError, match=r"the loss is no number after iteration \d+: lower learning_rate in \[refin"
+    ):
+        optimise_centres(settings, spots(40, np.random.default_rng(2)), MOTION, "cpu", said.append)

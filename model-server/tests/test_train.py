@@ -74,6 +74,17 @@ def test_figures_of_a_model_that_finds_nothing_right_are_json() -> None:
     assert json.loads(json.dumps(card, allow_nan=False))["f1"] == 0
 
 
+def test_a_loss_that_is_no_number_ends_the_training_at_once(tmp_path: Path) -> None:
+    config, films = small_training()
+    steps = replace(config.optimisation, learning_rate=1e30)
+    said: list[str] = []
+    with pytest.raises(
+        SettingsError, match=r"the loss is no number after iteration \d+: lower learning_rate in \[optim"
+    ):
+        optimise(replace(config, optimisation=steps), films, Workspace(tmp_path), "cpu", said.append)
+    assert said == []
+
+
 def test_an_interrupted_training_goes_on_to_the_same_weights(tmp_path: Path) -> None:
     config, films = small_training()
     workspace = Workspace(tmp_path)

@@ -80,6 +80,9 @@ def optimise_centres(
     """Trains a refining net on `samples`, each film as often as any other; returns its running mean.
 
     `start`: weights of a net like it to start from.
+
+    Raises:
+        SettingsError: the loss is no number any more.
     """
     torch.manual_seed(settings.seed)
     net = CentreNet(len(spec.channels), settings.widths)
@@ -104,7 +107,7 @@ def optimise_centres(
         with torch.autocast(kind, dtype=torch.bfloat16, enabled=short):
             out = net(inputs)
         loss = _loss(out.float(), torch.from_numpy(offsets).to(device))
-        losses.append(learn(loss, net, average, optimiser, settings.clip))
+        losses.append(learn(loss, net, average, optimiser, settings, iteration))
         if (done := iteration + 1) % 100 == 0 or done == settings.iterations:
             left = (time.monotonic() - started) / done * (settings.iterations - done)
             report(f"centres {done} of {settings.iterations}, loss {np.mean(losses):.4f}, {left / 60:.1f} min left")

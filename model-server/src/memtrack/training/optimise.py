@@ -7,6 +7,7 @@ import csv
 import dataclasses
 import hashlib
 import json
+import math
 import os
 import time
 from collections.abc import Callable
@@ -113,7 +114,7 @@ def optimise(
     """Trains the net; goes on from the workspace's checkpoint if there is one. Returns the averaged net.
 
     Raises:
-        SettingsError: the checkpoint is of another recipe.
+        SettingsError: the checkpoint is of another recipe, or the loss is no number any more.
     """
     settings = config.optimisation
     torch.manual_seed(settings.seed)
@@ -149,7 +150,7 @@ def optimise(
             maps = net(inputs)
         loss, shares = detection_loss(maps.float(), torch.from_numpy(wanted).to(device), config.loss)
         batches.learned(chosen, shares.cpu().numpy())
-        losses.append(learn(loss, net, average, optimiser, settings.clip))
+        losses.append(learn(loss, net, average, optimiser, settings, iteration))
         done = iteration + 1
         if done % 100 == 0 or done == settings.iterations:
             left = (time.monotonic() - started) / (done - first) * (settings.iterations - done)
@@ -167,15 +168,24 @@ def learn(
     net: nn.Module,
     average: torch.optim.swa_utils.AveragedModel,
     optimiser: torch.optim.Optimizer,
-    clip: float,
+    settings: Optimisation | Refinement,
+    iteration: int,
 ) -> float:
-    """One step of `net` and its running mean down the slope of `loss`, whose value it returns."""
+    """One step of `net` and its running mean down the slope of `loss`, whose value it returns.
+
+    Raises:
+        SettingsError: the value, after `iteration` steps, is not finite.
+    """
+    value = float(loss.detach())
+    if not math.isfinite(value):
+        part = type(settings).__name__.lower()
+        raise SettingsError(f"the loss is no number after iteration {iteration}: lower learning_rate in [{part}]")
     optimiser.zero_grad()
     loss.backward()  # type: ignore[no-untyped-call]
-    nn.utils.clip_grad_norm_(net.parameters(), clip)
+    nn.utils.clip_grad_norm_(net.parameters(), settings.clip)
     optimiser.step()
     average.update_parameters(net)
-    return float(loss.detach())
+    return value
 
 
 def computes_bfloat16(kind: str) -> bool:
