@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +16,8 @@ import pytest
 import tifffile
 
 from memtrack import __version__
-from memtrack.__main__ import SUBCOMMANDS
+from memtrack.__main__ import SUBCOMMANDS, main
+from memtrack.cli import simulate
 from memtrack.detections_io import read_detections
 
 
@@ -114,6 +117,30 @@ def test_what_a_user_can_mend_ends_with_two_and_one_sentence(film: Path, tmp_pat
         assert done.stderr.count("\n") == 1
         assert sentence in done.stderr
         assert not out.exists()
+
+
+def failing(error: BaseException) -> Callable[..., None]:
+    def fail(*_: object) -> None:
+        raise error
+
+    return fail
+
+
+def test_what_the_system_refuses_ends_with_two_and_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made = [str(tmp_path / "a.tif"), "--frames", "2", "--width", "64", "--height", "64"]
+    for error, sentence in [
+        (MemoryError(), "there is not enough memory; close other programs, or use fewer or smaller frames"),
+        (
+            OSError(errno.ENOSPC, "No space left on device", "a.csv"),
+            "a.csv: No space left on device; check the file, its rights and the space on the disk",
+        ),
+        (OSError("the spool ended"), "the spool ended; check the file, its rights and the space on the disk"),
+    ]:
+        monkeypatch.setattr(simulate, "write", failing(error))
+        assert main(["simulate", *made]) == 2
+        assert capsys.readouterr().err == f"memtrack: {sentence}\n"
 
 
 def test_detect_tells_what_the_server_would_warn_of(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 import cv2
@@ -54,6 +55,34 @@ def test_a_folder_of_films_is_refused(tmp_path: Path) -> None:
     tifffile.imwrite(tmp_path / "a.tif", FILM, photometric="minisblack")
     with pytest.raises(FilmError, match=r"a\.tif holds 12 images, but a folder is read as one image a file"):
         check(tmp_path, FILM)
+
+
+def png(path: Path) -> None:
+    path.write_bytes(cv2.imencode(".png", np.zeros((4, 5), np.uint8))[1].tobytes())
+
+
+def test_a_folder_named_like_an_image_is_no_frame(tmp_path: Path) -> None:
+    (tmp_path / "0.png").mkdir()
+    png(tmp_path / "1.png")
+    check(tmp_path, np.zeros((1, 4, 5), np.uint8))
+
+
+def test_what_cannot_be_read_gets_one_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for i in range(2):
+        png(tmp_path / f"{i}.png")
+    with open_film(tmp_path) as film:
+        (tmp_path / "1.png").unlink()
+        with pytest.raises(FilmError, match=r"cannot read .*1\.png: No such file or directory; check the file"):
+            film.frame(1)
+    for method, sentence in (("iterdir", "cannot read the folder"), ("exists", "cannot read")):
+        with monkeypatch.context() as locked:
+            locked.setattr(Path, method, refused)
+            with pytest.raises(FilmError, match=f"{sentence} .*: Permission denied; check"):
+                check(tmp_path, FILM)
+
+
+def refused(path: Path) -> None:
+    raise PermissionError(errno.EACCES, "Permission denied", str(path))
 
 
 def test_frames_of_different_sizes_are_refused(tmp_path: Path) -> None:

@@ -46,10 +46,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         options = parser.parse_args(words)
         return int(options.run(options))
     except MemtrackError as error:
-        print(f"memtrack: {error}", file=sys.stderr)
-        return 2
+        sentence = str(error)
+    except OSError as error:
+        place = "" if error.filename is None else f"{error.filename}: "
+        sentence = f"{place}{error.strerror or error}; check the file, its rights and the space on the disk"
+    except MemoryError:
+        sentence = "there is not enough memory; close other programs, or use fewer or smaller frames"
     except KeyboardInterrupt:
         return 130
+    print(f"memtrack: {sentence}", file=sys.stderr)
+    return 2
 
 
 if __name__ == "__main__":

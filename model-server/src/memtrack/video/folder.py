@@ -24,12 +24,13 @@ def open_folder(folder: Path) -> Iterator[Source]:
     """The images in `folder` in natural order of their names (2 before 10); all of one suffix.
 
     Raises:
-        FilmError: there are none, or of several kinds.
+        FilmError: there are none, or of several kinds, or the folder or its first image cannot be read.
     """
-    files = sorted(
-        (f for f in folder.iterdir() if f.suffix.lower() in SUFFIXES and not f.name.startswith(".")),
-        key=lambda f: natural(f.name),
-    )
+    try:
+        images = [f for f in folder.iterdir() if f.suffix.lower() in SUFFIXES and not f.name.startswith(".")]
+        files = sorted((f for f in images if not f.is_dir()), key=lambda f: natural(f.name))
+    except OSError as error:
+        raise FilmError(f"cannot read the folder {folder}: {error.strerror}; check its rights") from error
     if not files:
         raise FilmError(f"the folder {folder} has no images ({', '.join(SUFFIXES)}); give one with a PNG a frame")
     kinds = sorted({f.suffix.lower() for f in files})
@@ -49,4 +50,8 @@ def natural(name: str) -> list[tuple[float, str]]:
 def _read(file: Path) -> Shaped[np.ndarray, "..."]:
     if file.suffix.lower() in (".tif", ".tiff"):
         return read_tiff(file)
-    return decode(file.read_bytes(), file.name)
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        raise FilmError(f"cannot read {file}: {error.strerror}; check the file and its rights") from error
+    return decode(content, file.name)

@@ -54,7 +54,11 @@ def open_film(path: Path, given: Calibration | None = None) -> Iterator[OpenedFi
     Raises:
         FilmError: there is no film at `path`, or none that can be read.
     """
-    if not path.exists():
+    try:
+        there = path.exists()
+    except OSError as error:
+        raise FilmError(f"cannot read {path}: {error.strerror}; check the path and the rights") from error
+    if not there:
         raise FilmError(f"there is no film {path}; give a TIFF, an AVI or a folder of PNG frames")
     if path.is_dir():
         opening = open_folder(path)
