@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ import tifffile
 
 from memtrack import __version__
 from memtrack.__main__ import SUBCOMMANDS, main
-from memtrack.cli import simulate
+from memtrack.cli import detect, simulate
 from memtrack.detections_io import read_detections
 
 
@@ -141,6 +142,33 @@ def test_what_the_system_refuses_ends_with_two_and_one_sentence(
         monkeypatch.setattr(simulate, "write", failing(error))
         assert main(["simulate", *made]) == 2
         assert capsys.readouterr().err == f"memtrack: {sentence}\n"
+
+
+def test_a_result_that_another_program_holds_is_said_before_any_work(
+    film: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    opened = Path.open
+
+    def held(path: Path, *words: Any, **options: Any) -> Any:
+        if path.suffix in (".csv", ".json", ".mdf") and words == ("ab",):
+            raise PermissionError(errno.EACCES, "Permission denied")
+        return opened(path, *words, **options)
+
+    monkeypatch.setattr(Path, "open", held)
+    monkeypatch.setattr(simulate, "simulate", failing(AssertionError("it simulates")))
+    monkeypatch.setattr(detect, "detect_film", failing(AssertionError("it detects")))
+    for command, name in [
+        (["detect", str(film), "--out", str(tmp_path / "d.csv")], "d.csv"),
+        (["detect", str(film), "--out", str(tmp_path / "e.csv")], "e.provenance.json"),
+        (["simulate", str(tmp_path / "a.tif")], "a.mdf"),
+    ]:
+        (tmp_path / name).write_text("of before", encoding="utf-8")
+        assert main(command) == 2
+        assert capsys.readouterr().err == (
+            f"memtrack: cannot write to {tmp_path / name}: Permission denied; close it in other programs, or write "
+            "elsewhere\n"
+        )
+        assert (tmp_path / name).read_text(encoding="utf-8") == "of before"
 
 
 def test_detect_tells_what_the_server_would_warn_of(tmp_path: Path) -> None:

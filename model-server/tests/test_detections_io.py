@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from memtrack.detections import Detections, FrameDetections
-from memtrack.detections_io import read_detections, write_detections
+from memtrack.detections_io import files_of, read_detections, write_detections
 from memtrack.errors import InvalidInputError
 
 FRAMES = [
@@ -97,6 +97,17 @@ def test_json_of_another_kind_is_refused(tmp_path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InvalidInputError, match=r"d\.json"):
         read_detections(path)
+
+
+def test_what_cannot_replace_a_file_is_kept_beside_it_and_a_table_goes_first(tmp_path: Path) -> None:
+    path, beside = files_of(tmp_path / "d.csv")
+    beside.mkdir()  # cannot be replaced by a file, as one that is open on Windows
+    with pytest.raises(InvalidInputError, match=r"cannot replace .*d\.provenance\.json: .* rename \.d\.prov") as caught:
+        write_detections(path, FRAMES, {"model": "x"})
+    assert_same(read_detections(path), FRAMES[:1])
+    (kept,) = (file for file in tmp_path.iterdir() if file not in (path, beside))
+    assert kept.name in str(caught.value)
+    assert json.loads(kept.read_text(encoding="utf-8")) == {"model": "x", "frame_count": 2}
 
 
 def test_another_suffix_is_refused(tmp_path: Path) -> None:

@@ -34,22 +34,23 @@ def write_detections(path: Path, frames: Sequence[FrameDetections], provenance: 
     Raises:
         InvalidInputError: another suffix, or the folder cannot be written to.
     """
-    if suffix(path) == ".json":
+    files = files_of(path)
+    if path.suffix.lower() == ".json":
         document = {
             "provenance": dict(provenance),
             "frame_count": len(frames),
             "detections": [dict(zip(COLUMNS, row, strict=True)) for row in _rows(frames)],
         }
         write_text(path, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
-        return [path]
+        return files
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
     table.writerows(_rows(frames))
-    beside = path.with_name(f"{path.stem}.provenance.json")
-    write_text(beside, json.dumps({**provenance, "frame_count": len(frames)}, indent=1, ensure_ascii=False) + "\n")
+    # First what cannot be made again without the detection.
     write_text(path, text.getvalue())
-    return [path, beside]
+    write_text(files[1], json.dumps({**provenance, "frame_count": len(frames)}, indent=1, ensure_ascii=False) + "\n")
+    return files
 
 
 def read_detections(path: Path) -> list[FrameDetections]:
@@ -59,7 +60,7 @@ def read_detections(path: Path) -> list[FrameDetections]:
         InvalidInputError: the file cannot be read, or a row makes no sense.
     """
     text = read_text(path)
-    if suffix(path) == ".csv":
+    if _suffix(path) == ".csv":
         table = csv.DictReader(io.StringIO(text))
         missing = set(COLUMNS) - set(table.fieldnames or ())
         if missing:
@@ -84,8 +85,13 @@ def read_detections(path: Path) -> list[FrameDetections]:
     return [FrameDetections(frame, _detections(found.get(frame, []))) for frame in range(count)]
 
 
-def suffix(path: Path) -> str:
-    """The suffix of a file of detections; InvalidInputError for an unknown one."""
+def files_of(path: Path) -> list[Path]:
+    """The files that `write_detections` writes for `path`, itself first; InvalidInputError for another suffix."""
+    beside = path.with_name(f"{path.stem}.provenance.json")
+    return [path] if _suffix(path) == ".json" else [path, beside]
+
+
+def _suffix(path: Path) -> str:
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidInputError(f"{path.name} must end in {' or '.join(SUFFIXES)}")
     return path.suffix.lower()

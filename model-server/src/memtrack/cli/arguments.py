@@ -55,8 +55,8 @@ def thresholds(text: str) -> tuple[float, float, float]:
     return low, medium, high
 
 
-def check_folder_of(path: Path) -> None:
-    """Raises SettingsError where no file `path` can be written, before any work is done."""
+def check_target(path: Path) -> None:
+    """Raises SettingsError where no file `path` can be written, or replaced, before any work is done."""
     folder = path.resolve().parent
     if not folder.is_dir():
         raise SettingsError(f"the folder of {path} does not exist; make it, or write elsewhere")
@@ -64,6 +64,13 @@ def check_folder_of(path: Path) -> None:
         raise SettingsError(f"{path} is a folder; give the name of a file")
     if not os.access(folder, os.W_OK):
         raise SettingsError(f"the folder of {path} cannot be written to; write elsewhere")
+    if path.exists():
+        try:
+            path.open("ab").close()  # changes nothing; refused on Windows while another program has it open
+        except OSError as error:
+            raise SettingsError(
+                f"cannot write to {path}: {error.strerror}; close it in other programs, or write elsewhere"
+            ) from error
 
 
 def make_folder(path: Path, option: str) -> None:

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from memtrack import __version__
-from memtrack.cli.arguments import check_folder_of, positive, thresholds
+from memtrack.cli.arguments import check_target, positive, thresholds
 from memtrack.detections import FilterCounts, Level
-from memtrack.detections_io import suffix, write_detections
+from memtrack.detections_io import files_of, write_detections
 from memtrack.errors import SettingsError
 from memtrack.film import Calibration, Film
 from memtrack.libraries import engine_threads, library_versions
@@ -54,8 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Detects and writes; nothing is written unless the whole film went through."""
-    suffix(options.out)
-    check_folder_of(options.out)
+    for file in files_of(options.out):
+        check_target(file)
     settings = _settings(options)
     model = load_model(settings.model, settings.version)
     settings.pruner(model.card)  # refused before the film is read, if at all

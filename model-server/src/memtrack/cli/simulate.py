@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 import tifffile
 
-from memtrack.cli.arguments import check_folder_of
+from memtrack.cli.arguments import check_target
 from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.formats.trackmate_writer import FilmFile
 from memtrack.simulation.families import FAMILIES, draw_recipe
 from memtrack.simulation.film import SimulatedFilm, simulate
 from memtrack.tracks_io import write_tracks
+
+TRUTH_SUFFIXES = (".csv", ".mdf", ".xml")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +40,8 @@ def run(args: argparse.Namespace) -> int:
             raise SettingsError(f"--{name} is {getattr(args, name)}: give a number from {low} to {high}")
     if args.output.suffix.lower() not in (".tif", ".tiff"):
         raise SettingsError(f"{args.output} is no TIFF name: let it end in .tif")
-    check_folder_of(args.output)
+    for path in (args.output, *(args.output.with_suffix(suffix) for suffix in TRUTH_SUFFIXES)):
+        check_target(path)
     rng = np.random.default_rng(args.seed)
     recipe = draw_recipe(args.family, rng, width=args.width, height=args.height, frames=args.frames)
     made = simulate(recipe, args.seed)
@@ -71,6 +74,5 @@ def write(made: SimulatedFilm, path: Path) -> None:
         if partial.is_file():
             partial.unlink()
     image = FilmFile(path.resolve(), recipe.width, recipe.height, recipe.frames)
-    write_tracks(path.with_suffix(".csv"), made.truth)
-    write_tracks(path.with_suffix(".mdf"), made.truth)
-    write_tracks(path.with_suffix(".xml"), made.truth, film=image)
+    for suffix in TRUTH_SUFFIXES:
+        write_tracks(path.with_suffix(suffix), made.truth, film=image)
