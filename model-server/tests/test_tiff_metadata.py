@@ -22,6 +22,22 @@ def test_imagej_tiff_tells_pixel_size_and_frame_interval(tmp_path: Path, unit: s
     assert calibration.frame_interval_seconds == 0.5
 
 
+@pytest.mark.parametrize(("height", "said"), [(0.251, False), (0.3, True)])
+def test_pixels_that_are_not_square_are_said(tmp_path: Path, height: float, said: bool) -> None:
+    sentence = (
+        f"The pixels are not square (0.25 x {height} um); their width, or the size that is given, is used in both "
+        "directions."
+    )
+    notes = (sentence,) * said
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": "um"}, resolution=(4.0, 1 / height))
+    assert check(path, FILM, notes).pixel_size_um == 0.25
+    path = tmp_path / "film.ome.tif"
+    size = {"PhysicalSizeX": 0.25, "PhysicalSizeY": 1000 * height, "PhysicalSizeYUnit": "nm"}
+    tifffile.imwrite(path, FILM, ome=True, metadata={"axes": "TYX", **size})
+    assert check(path, FILM, notes).pixel_size_um == 0.25
+
+
 @pytest.mark.parametrize("unit", ["pixel", "inch"])
 def test_imagej_tiff_in_pixels_or_in_inches_of_a_screen_tells_no_size(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "film.tif"

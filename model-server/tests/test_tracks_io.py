@@ -110,6 +110,18 @@ def test_a_trackmate_file_names_its_film_and_units(tmp_path: Path) -> None:
     assert f'folder="{tmp_path}{os.sep}"' in (tmp_path / "a.xml").read_text(encoding="utf-8")
 
 
+def test_a_trackmate_file_of_pixels_that_are_not_square_is_read_by_their_width_and_height(tmp_path: Path) -> None:
+    boxed = two_tracks(width=10, height=8, calibration=Calibration(0.25, 0.5))
+    write_tracks(tmp_path / "a.xml", boxed)
+    text = (tmp_path / "a.xml").read_text(encoding="utf-8")
+    table = read_tracks(write(tmp_path / "a.xml", text.replace('pixelheight="0.25"', 'pixelheight="0.5"')))
+    np.testing.assert_allclose(table.x, [2.5, 3.25, 1.5])
+    np.testing.assert_allclose(table.y, [4, 3.5, 4.5])
+    assert (table.width[0], table.height[0]) == (10, 4)
+    without = read_tracks(write(tmp_path / "b.xml", text.replace('pixelheight="0.25"', "")))
+    np.testing.assert_allclose(without.y, [8, 7, 9])
+
+
 def test_a_truth_table_says_which_rows_are_neither_right_nor_wrong(tmp_path: Path) -> None:
     path = write(
         tmp_path / "t.csv",

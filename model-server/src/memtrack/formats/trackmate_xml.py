@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads TrackMate's XML: its model file (versions 2 to 8) and its "Export tracks to XML".
 
-Positions there are in the film's units, pixel-centre = whole coordinate times pixel size; ours are in pixels.
+Positions there are in the film's units, pixel-centre = whole coordinate times the pixel's width or height; ours are in
+pixels.
 A track of TrackMate is a graph; where it splits or merges it is cut, and each unbranched part is a track of its own.
 """
 
@@ -70,9 +71,11 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
     image = root.find("Settings/ImageData")
     if image is not None:
         unit_size, interval = _number(image, "pixelwidth"), _number(image, "timeinterval")
+        height = _number(image, "pixelheight", unit_size)
     else:
-        unit_size, interval = math.nan, math.nan
+        unit_size, interval, height = math.nan, math.nan, math.nan
     scale, found = _scale(model.get("spatialunits", "pixel"), unit_size, calibration)
+    down = height if height > 0 and unit_size > 0 else scale
     interval *= seconds(model.get("timeunits", "")) or 0
     spots = {}
     for spot in model.iterfind("AllSpots/SpotsInFrame/Spot"):
@@ -81,9 +84,9 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
             spots[_whole(spot, "ID")] = _Spot(
                 _whole(spot, "FRAME"),
                 _number(spot, "POSITION_X") / scale,
-                _number(spot, "POSITION_Y") / scale,
+                _number(spot, "POSITION_Y") / down,
                 _number(spot, "MEMTRACK_BOX_WIDTH", math.nan) / scale,
-                _number(spot, "MEMTRACK_BOX_HEIGHT", math.nan) / scale,
+                _number(spot, "MEMTRACK_BOX_HEIGHT", math.nan) / down,
                 # An interpolated spot has the quality 0, which TrackMate wants of each, and no score.
                 _number(spot, "MEMTRACK_SCORE", math.nan if interpolated else _number(spot, "QUALITY", math.nan)),
                 interpolated,
@@ -148,7 +151,7 @@ def _read_export(root: Element, calibration: Calibration) -> TrackTable:
 
 
 def _scale(unit: str, unit_size: float, calibration: Calibration) -> tuple[float, float | None]:
-    """Units a pixel, and the pixel's size in micrometres if it is known."""
+    """Units a pixel across, and the pixel's size in micrometres if it is known."""
     if unit.strip().lower() in _PIXEL_UNITS:
         return (unit_size if unit_size > 0 else 1.0), None
     in_micrometres = micrometres(unit)

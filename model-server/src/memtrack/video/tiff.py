@@ -44,7 +44,8 @@ def open_tiff(path: Path) -> Iterator[Source]:
             height, width = series.shape[series.axes.index("Y")], series.shape[series.axes.index("X")]
             read = _reader(file, series)
             notes += notes_on(read(0))
-            calibration = _calibration(file)
+            calibration, shape = _calibration(file)
+            notes += shape
         yield Source(count, height, width, read, calibration, tuple(notes))
 
 
@@ -180,24 +181,39 @@ def _decoded_by_opencv(file: tifffile.TiffFile, page: Any) -> Shaped[np.ndarray,
     return red_first(image)
 
 
-def _calibration(file: tifffile.TiffFile) -> Calibration:
-    """What ImageJ or OME wrote; the resolution of other TIFFs is about printing and means nothing here."""
+def _calibration(file: tifffile.TiffFile) -> tuple[Calibration, list[str]]:
+    """What ImageJ or OME wrote, and a note where its pixels are not square; the resolution of other TIFFs is about
+    printing and means nothing here."""
     if file.imagej_metadata is not None:
         return _imagej(file.imagej_metadata, file)
     if file.ome_metadata is not None:
         return _ome(file.ome_metadata)
-    return Calibration()
+    return Calibration(), []
 
 
-def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> Calibration:
+def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> tuple[Calibration, list[str]]:
     unit = micrometres(str(tags.get("unit", "")).replace("\\u00B5", "µ"))
-    resolution = file.pages.first.tags.get("XResolution")
-    size = None
-    if unit is not None and resolution is not None and resolution.value[0] > 0:
-        size = resolution.value[1] / resolution.value[0] * unit
+    width, height = (_edge(file, name, unit) for name in ("XResolution", "YResolution"))
     # Not by "fps": that is the rate of ImageJ's animation, whatever the film was recorded at.
     interval = float(tags.get("finterval", 0) or 0) * (seconds(str(tags.get("tunit", "sec"))) or 0)
-    return Calibration(size, interval if interval > 0 else None)
+    return Calibration(width, interval if interval > 0 else None), _shape(width, height)
+
+
+def _edge(file: tifffile.TiffFile, resolution: str, unit: float | None) -> float | None:
+    tag = file.pages.first.tags.get(resolution)
+    if unit is None or tag is None or min(tag.value) <= 0:
+        return None
+    return tag.value[1] / tag.value[0] * unit
+
+
+def _shape(width: float | None, height: float | None) -> list[str]:
+    """What is to be said of pixels of this width and height in micrometres."""
+    if width is None or height is None or abs(height / width - 1) <= 0.01:
+        return []
+    return [
+        f"The pixels are not square ({width:g} x {height:g} um); their width, or the size that is given, is used in "
+        "both directions."
+    ]
 
 
 def _ome_pixels(text: str) -> dict[str, str]:
@@ -210,11 +226,10 @@ def _ome_pixels(text: str) -> dict[str, str]:
     return {} if pixels is None else dict(pixels.attrib)
 
 
-def _ome(text: str) -> Calibration:
+def _ome(text: str) -> tuple[Calibration, list[str]]:
     values = _ome_pixels(text)
-    return Calibration(
-        _quantity(values, "PhysicalSizeX", "µm", micrometres), _quantity(values, "TimeIncrement", "s", seconds)
-    )
+    width, height = (_quantity(values, f"PhysicalSize{axis}", "µm", micrometres) for axis in "XY")
+    return Calibration(width, _quantity(values, "TimeIncrement", "s", seconds)), _shape(width, height)
 
 
 def _quantity(
