@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -153,6 +154,18 @@ def test_the_command_writes_a_page_and_a_json(tmp_path: Path, capsys: pytest.Cap
     assert page.count("<svg") == 5
     assert "<script" not in page
     assert "nan" not in page.lower()
+
+
+@pytest.mark.parametrize("ending", ["csv", "xml"])
+def test_what_a_truth_ignores_is_neither_right_nor_wrong_to_find(tmp_path: Path, ending: str) -> None:
+    truth = swimmers([1.0, 2.0])
+    truth = replace(truth, ignored=(truth.ids == 1) & (truth.frames >= 10))
+    write_tracks(tmp_path / f"t.{ending}", truth)
+    for name, rows in (("all", truth.ids >= 0), ("wanted", ~truth.ignored)):
+        write_tracks(tmp_path / f"{name}.csv", truth.select(rows))
+        content = run(tmp_path, "--truth", str(tmp_path / f"t.{ending}"), "--tracks", str(tmp_path / f"{name}.csv"))
+        counts = content["all_films"]["steps"]["SORT"]
+        assert (counts["tp"], counts["fp"], counts["fn"]) == (FRAMES + 10, 0, 0)
 
 
 def test_a_list_of_films_gives_a_line_each_and_one_for_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -100,6 +100,26 @@ def test_tracks_come_back_as_they_were_written(tmp_path: Path, ending: str) -> N
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("ending", ["csv", "xml", "mdf"])
+def test_ignored_rows_are_marked_or_left_out(tmp_path: Path, ending: str) -> None:
+    table = TrackTable.of(
+        [0, 1, 2, 0, 1], [0, 0, 0, 1, 1], [1, 2, 3, 4, 5], 6.0, ignored=[False, True, False, False, True]
+    )
+    path = tmp_path / f"a.{ending}"
+    write_tracks(path, table)
+    back = read_tracks(path)
+    if ending == "mdf":
+        assert (back.frames.tolist(), back.x.tolist()) == ([0, 2, 0], [1, 3, 4])
+    else:
+        assert (back.frames.tolist(), back.ignored.tolist()) == (table.frames.tolist(), table.ignored.tolist())
+    text = path.read_text(encoding="utf-8")
+    assert (text.count('feature="MEMTRACK_IGNORED"'), text.count('MEMTRACK_IGNORED="')) == (
+        (1, 5) if ending == "xml" else (0, 0)
+    )
+    write_tracks(path, table.select(~table.ignored))
+    assert "MEMTRACK_IGNORED" not in path.read_text(encoding="utf-8")
+
+
 def test_a_trackmate_file_names_its_film_and_units(tmp_path: Path) -> None:
     film = FilmFile(tmp_path / "film.tif", 660, 492, 60)
     write_tracks(tmp_path / "a.xml", two_tracks(calibration=Calibration(0.2475, 1 / 60)), film=film)

@@ -79,13 +79,14 @@ def read(path: Path, calibration: Calibration) -> TrackTable:
 def write(path: Path, table: TrackTable) -> None:
     """Write tracks as version 1.5.1, as the plug-in does: a cluster and a colour for each class of motility.
 
-    A track's number is its id, counted from 1; detections without a track are left out.
+    A track's number is its id, counted from 1; detections without a track are left out, and ignored rows of a truth,
+    which the format cannot mark.
 
     Raises:
         InvalidInputError: the file cannot be written.
     """
     clusters: dict[Motility, list[TrackTable]] = defaultdict(list)
-    for track in table.tracks():
+    for track in table.select(~table.ignored).tracks():
         clusters[Motility(int(track.motility.max()))].append(track)
     lines = ["MTrackJ 1.5.1 Data File", "Assembly 1 FF0000"]
     for number, (motility, colour) in enumerate(_COLOURS.items(), start=1):

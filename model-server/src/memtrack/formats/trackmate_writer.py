@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes TrackMate's model file, as TrackMate 7 and 8 open it and the plug-in writes it; with a film it opens on that.
 
-What only the plug-in knows is left out: levels, contrasts, the stage's drift, speeds and diffusivities.
+What only the plug-in knows is left out: levels, contrasts, the stage's drift, speeds and diffusivities. A truth says
+besides which spots are ignored.
 """
 
 from __future__ import annotations
@@ -39,6 +40,8 @@ _SPOT_FEATURES = {
     "MEMTRACK_SCORE": ("Detection score", "Score", "QUALITY", False),
     "MEMTRACK_MOTILITY": ("Motility class", "Motility", "NONE", True),
 }
+_TRUTH_FEATURES = {"MEMTRACK_IGNORED": ("Ignored", "Ignored", "NONE", True)}
+"""Of spots, where one of them is ignored."""
 _EDGE_FEATURES = {
     "SPOT_SOURCE_ID": ("Source spot ID", "Source ID", "NONE", True),
     "SPOT_TARGET_ID": ("Target spot ID", "Target ID", "NONE", True),
@@ -84,7 +87,9 @@ def write(path: Path, table: TrackTable, film: FilmFile | None = None) -> None:
         timeunits="sec" if table.calibration.frame_interval_seconds else "frame",
     )
     declarations = SubElement(model, "FeatureDeclarations")
-    _declare(SubElement(declarations, "SpotFeatures"), _SPOT_FEATURES)
+    _declare(
+        SubElement(declarations, "SpotFeatures"), _SPOT_FEATURES | (_TRUTH_FEATURES if table.ignored.any() else {})
+    )
     _declare(SubElement(declarations, "EdgeFeatures"), _EDGE_FEATURES)
     _declare(SubElement(declarations, "TrackFeatures"), _TRACK_FEATURES)
     _append_spots(model, table, pixel, interval)
@@ -114,6 +119,7 @@ def _append_spots(model: Element, table: TrackTable, pixel: float, interval: flo
     """Spots are numbered by their row in the table."""
     spots = SubElement(model, "AllSpots", nspots=str(len(table)))
     boxed = table.with_boxes(_BOX_PX)
+    marked = bool(table.ignored.any())
     for frame in np.unique(table.frames):
         in_frame = SubElement(spots, "SpotsInFrame", frame=str(frame))
         for row in np.flatnonzero(table.frames == frame):
@@ -133,6 +139,8 @@ def _append_spots(model: Element, table: TrackTable, pixel: float, interval: flo
                 VISIBILITY="1",
                 MEMTRACK_INTERPOLATED=str(int(table.interpolated[row])),
             )
+            if marked:
+                spot.set("MEMTRACK_IGNORED", str(int(table.ignored[row])))
             if not math.isnan(table.width[row] + table.height[row]):
                 spot.set("MEMTRACK_BOX_WIDTH", repr(float(table.width[row]) * pixel))
                 spot.set("MEMTRACK_BOX_HEIGHT", repr(float(table.height[row]) * pixel))

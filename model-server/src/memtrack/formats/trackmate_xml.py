@@ -36,6 +36,7 @@ class _Spot:
     height: float
     quality: float
     interpolated: bool
+    ignored: bool
 
 
 def read(path: Path, calibration: Calibration) -> TrackTable:
@@ -90,6 +91,7 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
                 # An interpolated spot has the quality 0, which TrackMate wants of each, and no score.
                 _number(spot, "MEMTRACK_SCORE", math.nan if interpolated else _number(spot, "QUALITY", math.nan)),
                 interpolated,
+                _number(spot, "MEMTRACK_IGNORED", 0.0) == 1.0,
             )
     kept = {track.get("TRACK_ID") for track in model.iterfind("FilteredTracks/TrackID")}
     edges: list[tuple[int, int]] = []
@@ -114,6 +116,7 @@ def _read_model(root: Element, calibration: Calibration) -> TrackTable:
         height=[spot.height for spot in rows],
         scores=[spot.quality for spot in rows],
         interpolated=[spot.interpolated for spot in rows],
+        ignored=[spot.ignored for spot in rows],
         motility=[motility_of.get(spot_id, Motility.UNKNOWN) for spot_id in spots],
         calibration=Calibration(found, interval if interval > 0 else None),
     )
