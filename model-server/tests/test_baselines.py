@@ -38,6 +38,21 @@ def test_a_baseline_finds_spots_to_a_fraction_of_a_pixel(name: str, sign: str) -
         assert best[:, 2] - best[:, 0] == pytest.approx([20, 20])
 
 
+@pytest.mark.parametrize("name", ["log", "log-deviation", "trackpy"])
+def test_a_film_of_fractions_has_the_spots_of_one_of_grey_levels(name: str) -> None:
+    if name == "trackpy":
+        pytest.importorskip("trackpy", reason="the extra 'baselines' is not installed")
+    film, _ = film_of_spots(1.0, np.random.default_rng(1))
+    low, high = film.frames.min(), film.frames.max()
+    film = ArrayFilm(((film.frames - low) * (255 / (high - low))).round().astype(np.uint8))
+    for scale in (1 / 255, 1e-9, 1e6):
+        fractions = ArrayFilm((film.frames * scale).astype(np.float32))
+        for ours, theirs in zip(detect(name, film, 4.0, "both"), detect(name, fractions, 4.0, "both"), strict=True):
+            assert len(ours.detections) > 2
+            np.testing.assert_allclose(theirs.detections.boxes[:2], ours.detections.boxes[:2], atol=0.2)
+            np.testing.assert_allclose(theirs.detections.scores[:2], ours.detections.scores[:2], rtol=0.05)
+
+
 def test_tuning_takes_the_sign_radius_and_threshold_that_serve_the_truth_best() -> None:
     film, truth = film_of_spots(-1.0, np.random.default_rng(2))
     best = tune("log-deviation", [(film, truth), (film, truth)], Criterion(distance_px=3))

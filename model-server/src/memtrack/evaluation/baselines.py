@@ -100,12 +100,24 @@ def detect(name: str, film: Film, radius_px: float, sign: str, box_size_px: floa
 
 
 def _images(film: Film, subtract: bool) -> Iterator[Image]:
+    """The frames in grey levels, less the film's median if asked for."""
+    unit = _unit(film)
     median: Image | float = 0.0
     if subtract:
         chosen = np.unique(np.linspace(0, film.frame_count - 1, MEDIAN_FRAMES).astype(int))
         median = np.median([film.frame(int(i)) for i in chosen], axis=0).astype(np.float32)
     for index in range(film.frame_count):
-        yield film.frame(index).astype(np.float32) - median
+        yield (film.frame(index).astype(np.float32) - median) / unit
+
+
+def _unit(film: Film) -> float:
+    """What a grey level is in the film's numbers: 1, or of floating point numbers, whose unit nobody knows, a share of
+    their range as in a film of 8 bits."""
+    if film.frame(0).dtype.kind != "f":
+        return 1.0
+    extremes = [(frame.min(), frame.max()) for frame in map(film.frame, range(film.frame_count))]
+    low, high = np.array(extremes, np.float64).T
+    return float(high.max() - low.min()) / 255 or 1.0
 
 
 Spots = tuple[np.ndarray, np.ndarray, np.ndarray]
