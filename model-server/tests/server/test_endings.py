@@ -18,15 +18,19 @@ import pytest
 from grpc_health.v1 import health_pb2, health_pb2_grpc
 
 from memtrack.v1 import detection_pb2 as pb
-from server.running import RunningServer, answer, chunks, eventually, header, noise, requests
-
-CANCEL_SECONDS = 2.0
+from server.running import PATIENCE_SECONDS, RunningServer, answer, chunks, eventually, header, noise, requests
 
 
 @pytest.fixture(scope="module")
 def long_film() -> np.ndarray:
-    """Long enough that every stage can be caught at work."""
+    """Long enough that every stage can be caught at work, and that who goes on to its end is seen to."""
     return np.tile(noise(20, 300, 400), (30, 1, 1))
+
+
+def finished(server: RunningServer, film: np.ndarray) -> bool:
+    """Whether a film of the size of `film` was worked on to its end."""
+    frames, height, width = film.shape
+    return f"{frames} frames of {width} x {height}: " in server.log
 
 
 def until(call: Any, stage: int) -> None:
@@ -50,16 +54,17 @@ def endless(film: np.ndarray) -> Iterator[pb.DetectFilmRequest]:
     [pb.STAGE_RECEIVING, pb.STAGE_STABILISING, pb.STAGE_BACKGROUND, pb.STAGE_DETECTING],
     ids=["receiving", "stabilising", "background", "detecting"],
 )
-def test_a_cancelled_film_leaves_within_two_seconds(server: RunningServer, long_film: np.ndarray, stage: int) -> None:
+def test_a_cancelled_film_leaves_unfinished_and_the_next_has_its_turn(
+    server: RunningServer, long_film: np.ndarray, stage: int
+) -> None:
     call = server.call(requests(long_film, no_stabilisation=stage > pb.STAGE_STABILISING))
     until(call, stage)
     assert server.spools() == 1
     call.cancel()
-    eventually(lambda: server.spools() == 0, "the spool is gone", CANCEL_SECONDS)
-    # The next film has its turn at once: nobody works on the cancelled one.
-    begun = time.monotonic()
+    eventually(lambda: server.spools() == 0, "the spool is gone")
+    # Nobody works on the cancelled one any more.
     assert max(p.films_ahead for p in server.detect(noise(2, 10, 10)).progress) == 0
-    assert time.monotonic() - begun < CANCEL_SECONDS
+    assert not finished(server, long_film)
 
 
 def test_a_film_cancelled_while_it_waits_leaves_the_queue(server: RunningServer, long_film: np.ndarray) -> None:
@@ -71,16 +76,18 @@ def test_a_film_cancelled_while_it_waits_leaves_the_queue(server: RunningServer,
             break
     assert server.spools() == 2
     second.cancel()
-    eventually(lambda: server.spools() == 1, "the waiting film's spool is gone", CANCEL_SECONDS)
+    eventually(lambda: server.spools() == 1, "the waiting film's spool is gone")
     first.cancel()
-    eventually(lambda: server.spools() == 0, "the working film's spool is gone", CANCEL_SECONDS)
+    eventually(lambda: server.spools() == 0, "the working film's spool is gone")
+    assert not finished(server, long_film)
 
 
 def test_a_client_whose_deadline_has_passed_leaves_nothing(server: RunningServer, long_film: np.ndarray) -> None:
     with pytest.raises(grpc.RpcError) as late:
         answer(server.detection.DetectFilm(requests(long_film), metadata=server.metadata, timeout=0.7))
     assert late.value.code() is grpc.StatusCode.DEADLINE_EXCEEDED
-    eventually(lambda: server.spools() == 0, "the spool is gone", CANCEL_SECONDS)
+    eventually(lambda: server.spools() == 0, "the spool is gone")
+    assert not finished(server, long_film)
 
 
 CLIENT = """
@@ -104,7 +111,7 @@ def test_a_killed_client_leaves_nothing(server: RunningServer) -> None:
         assert server.spools() == 1
         client.kill()
         client.wait()
-    eventually(lambda: server.spools() == 0, "the spool is gone", CANCEL_SECONDS)
+    eventually(lambda: server.spools() == 0, "the spool is gone")
 
 
 def test_a_silent_client_is_given_up(spool_folder: Path) -> None:
@@ -113,7 +120,7 @@ def test_a_silent_client_is_given_up(spool_folder: Path) -> None:
             answer(server.call(endless(noise(4, 20, 20))))
         assert given_up.value.code() is grpc.StatusCode.DEADLINE_EXCEEDED
         assert given_up.value.details() == "no frame came for 0.3 s, so the film was given up; run it again"
-        eventually(lambda: server.spools() == 0, "the spool is gone", CANCEL_SECONDS)
+        eventually(lambda: server.spools() == 0, "the spool is gone")
 
 
 def test_more_films_than_the_limit_are_refused(spool_folder: Path) -> None:
@@ -125,7 +132,7 @@ def test_more_films_than_the_limit_are_refused(spool_folder: Path) -> None:
         assert refused.value.code() is grpc.StatusCode.RESOURCE_EXHAUSTED
         assert refused.value.details() == ("the model server has 1 film(s) already, its limit; wait until one is done")
         first.cancel()
-        eventually(lambda: server.spools() == 0, "the first film is gone", CANCEL_SECONDS)
+        eventually(lambda: server.spools() == 0, "the first film is gone")
         assert server.detect(noise(2, 10, 10)).summary[0].frame_count == 2
 
 
@@ -156,11 +163,9 @@ def test_the_end_of_standard_input_ends_the_server_and_its_films(spool_folder: P
     with RunningServer(spool_folder) as server:
         call = server.call(requests(long_film))
         until(call, pb.STAGE_STABILISING)
-        begun = time.monotonic()
         assert server.process.stdin is not None
         server.process.stdin.close()
-        assert server.process.wait(10) == 0
-        assert time.monotonic() - begun < 3
+        assert server.process.wait(PATIENCE_SECONDS) == 0
         with pytest.raises(grpc.RpcError) as ended:
             answer(call)
         assert ended.value.code() is grpc.StatusCode.UNAVAILABLE
@@ -191,25 +196,23 @@ def test_the_death_of_the_parent_ends_the_server(spool_folder: Path) -> None:
         assert server.is_running()
         parent.kill()
         parent.wait()
-    eventually(lambda: not server.is_running() or server.status() == psutil.STATUS_ZOMBIE, "the server has ended", 5)
+    eventually(lambda: not server.is_running() or server.status() == psutil.STATUS_ZOMBIE, "the server has ended")
 
 
 def test_a_parent_that_is_dead_already_ends_the_server(spool_folder: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", ""]) as gone:
         gone.wait()
     with RunningServer(spool_folder, "--parent-pid", str(gone.pid)) as server:
-        assert server.process.wait(10) == 0
+        assert server.process.wait(PATIENCE_SECONDS) == 0
         assert f"ending: parent process {gone.pid} has ended" in server.log
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGTERM that a process can catch")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_ends_an_idle_server_at_once(spool_folder: Path, number: signal.Signals) -> None:
-    with RunningServer(spool_folder) as server:
-        begun = time.monotonic()
+    with RunningServer(spool_folder, "--grace-seconds", str(10 * PATIENCE_SECONDS)) as server:
         server.process.send_signal(number)
-        assert server.process.wait(10) == 0
-        assert time.monotonic() - begun < 2
+        assert server.process.wait(PATIENCE_SECONDS) == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGTERM that a process can catch")
@@ -221,7 +224,8 @@ def test_a_signal_lets_a_film_finish_within_the_grace(spool_folder: Path) -> Non
         server.process.terminate()
         found = answer(call)
         assert found.summary[0].frame_count == 60
-        assert server.process.wait(10) == 0
+        assert finished(server, film)
+        assert server.process.wait(PATIENCE_SECONDS) == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGTERM that a process can catch")
@@ -229,28 +233,30 @@ def test_a_signal_ends_a_film_that_takes_longer_than_the_grace(spool_folder: Pat
     with RunningServer(spool_folder, "--grace-seconds", "0.5") as server:
         call = server.call(requests(long_film))
         until(call, pb.STAGE_STABILISING)
-        watch = health_pb2_grpc.HealthStub(server.channel).Watch(health_pb2.HealthCheckRequest(), timeout=30)
+        watch = health_pb2_grpc.HealthStub(server.channel).Watch(
+            health_pb2.HealthCheckRequest(), timeout=PATIENCE_SECONDS
+        )
         assert next(watch).status == health_pb2.HealthCheckResponse.SERVING
-        begun = time.monotonic()
         server.process.terminate()
         assert next(watch).status == health_pb2.HealthCheckResponse.NOT_SERVING
         with pytest.raises(grpc.RpcError) as ended:
             answer(call)
         assert ended.value.code() is grpc.StatusCode.UNAVAILABLE
         assert ended.value.details() == "the model server is shutting down; run the film again"
-        assert server.process.wait(10) == 0
-        assert time.monotonic() - begun < 4
+        assert server.process.wait(PATIENCE_SECONDS) == 0
+        assert not finished(server, long_film)
 
 
 def test_memory_returns_to_its_level_after_each_film(server: RunningServer) -> None:
-    film = noise(40, 200, 300)
+    film = noise(40, 200, 300, "float32")
     process = psutil.Process(server.process.pid)
 
-    def megabytes_after(films: int) -> float:
+    def bytes_after(films: int) -> int:
         for _ in range(films):
             server.detect(film)
-        return float(process.memory_info().rss / 1e6)
+        return int(process.memory_info().rss)
 
-    level = megabytes_after(3)
-    assert megabytes_after(6) - level < 30, "a film of 2.4 MB left more than 5 MB behind"
+    # The libraries take their room with the first films, and from film to film it varies by one or two.
+    level = bytes_after(5)
+    assert bytes_after(6) - level < 4 * film.nbytes, "each of six films left itself behind"
     assert server.spools() == 0
