@@ -97,12 +97,15 @@ public record ResultFiles(Path xml, Path csv, Path motility, Path mdf, Path pict
         }
     }
 
-    /** One sentence when it fails: the film's disk may be gone, or a huge frame be too much for the memory. */
+    /**
+     * One sentence when it fails: the film's disk may be gone, or a huge frame be too much for the memory. Any Error is
+     * caught, since a Java without fonts throws an InternalError, and tracks are worth more than their picture.
+     */
     private static Optional<String> draw(TrackingResult result, Film film, Path target) {
         try {
             TrackPicture.of(film, result.tracked()).write(target);
             return Optional.empty();
-        } catch (IOException | RuntimeException | OutOfMemoryError e) {
+        } catch (IOException | RuntimeException | Error e) {
             System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "No picture", e);
             return Optional.of(
                     "The picture of the tracks is missing, since it could not be drawn (%s); all other results are there."

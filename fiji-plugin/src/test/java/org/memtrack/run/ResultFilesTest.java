@@ -204,6 +204,11 @@ class ResultFilesTest {
         Film huge = unreadable(() -> new OutOfMemoryError("Java heap space"));
         assertThat(write(ResultFiles.in(folder, SmallRun.film()), huge))
                 .hasValueSatisfying(sentence -> assertThat(sentence).contains("(the memory is full)"));
+        // What Java says where it has no fonts to write with.
+        Film fontless = unreadable(() -> new InternalError("Fontconfig head is null"));
+        assertThat(write(ResultFiles.in(folder, SmallRun.film()), fontless, TRACK))
+                .hasValueSatisfying(sentence -> assertThat(sentence).contains("(Fontconfig head is null)"));
+        assertThat(Files.readString(files.csv())).hasLineCount(2);
         assertThat(write(ResultFiles.in(folder, SmallRun.film()), SmallRun.film()))
                 .isEmpty();
         assertThat(folder.toFile().list()).hasSize(6);
