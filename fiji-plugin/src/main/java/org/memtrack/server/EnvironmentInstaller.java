@@ -167,7 +167,7 @@ public final class EnvironmentInstaller {
                 Folders.tryDelete(folder);
             }
         }
-        Servers.end();
+        Servers.retire();
         deleteOlder(folder, before.map(PythonEnvironment::folder).orElse(folder));
         progress.report("Installed", 1, OptionalDouble.empty(), folder.toString());
         return made;

@@ -29,6 +29,9 @@ final class ManagedServer {
         thread.setDaemon(true);
         return thread;
     });
+    /** Out of use, but still at work for those who had them. */
+    private final List<Running> retired = new ArrayList<>();
+
     private @Nullable Running running;
     private @Nullable ScheduledFuture<?> ending;
     private volatile boolean closing;
@@ -72,23 +75,48 @@ final class ManagedServer {
         end();
     }
 
-    /** Ends the server, also under its users. */
-    void end() {
+    /** Takes the server out of use: nobody else gets it, and it ends when its last user, if it has any, gives it back. */
+    void retire() {
         lock.lock();
         try {
-            if (running != null) {
-                running.client.close();
-                running.server.end();
+            if (running != null && inUse(running)) {
+                retired.add(running);
                 running = null;
+            } else {
+                endRunning();
             }
         } finally {
             lock.unlock();
         }
     }
 
+    /** Ends the server and those that were retired, also under their users. */
+    void end() {
+        lock.lock();
+        try {
+            endRunning();
+            retired.forEach(ManagedServer::end);
+            retired.clear();
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    private void endRunning() {
+        if (running != null) {
+            end(running);
+            running = null;
+        }
+    }
+
+    private static void end(Running server) {
+        server.client.close();
+        server.server.end();
+    }
+
     private Running start(List<Interpreter> candidates, Progress progress) {
         // It has died, or nobody uses it.
-        end();
+        endRunning();
         List<String> reasons = new ArrayList<>();
         for (Interpreter candidate : candidates) {
             try {
@@ -187,8 +215,13 @@ final class ManagedServer {
     private void release(Running used, Object user) {
         lock.lock();
         try {
-            if (used.users.remove(user) && used.users.isEmpty() && used == running) {
+            if (!used.users.remove(user) || !used.users.isEmpty()) {
+                return;
+            }
+            if (used == running) {
                 ending = timer.schedule(() -> endIfIdle(used), idleLimit.toMillis(), TimeUnit.MILLISECONDS);
+            } else if (retired.remove(used)) {
+                end(used);
             }
         } finally {
             lock.unlock();
@@ -199,7 +232,7 @@ final class ManagedServer {
         lock.lock();
         try {
             if (idle == running && idle.users.isEmpty()) {
-                end();
+                endRunning();
             }
         } finally {
             lock.unlock();

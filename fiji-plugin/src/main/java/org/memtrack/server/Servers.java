@@ -42,9 +42,12 @@ public final class Servers {
                 : at(settings.address());
     }
 
-    /** Ends the server of our own, if one runs; the next {@link #acquire} starts a new one. */
-    public static void end() {
-        MANAGED.end();
+    /**
+     * Takes the server of our own, if one runs, out of use: the next {@link #acquire} starts a new one, and the old one ends
+     * when the runs that it works for have ended.
+     */
+    static void retire() {
+        MANAGED.retire();
     }
 
     private static ServerConnection at(String address) {

@@ -14,14 +14,17 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicBoolean;
+import java.util.stream.Collectors;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.client.Progress;
+import org.memtrack.detection.DetectorException;
 import org.memtrack.v1.GetServerInfoRequest;
 import org.memtrack.v1.GetServerInfoResponse;
 import org.memtrack.v1.ServerServiceGrpc;
@@ -76,6 +79,61 @@ class ManagedServerTest {
             ofThisBuild.end();
             server.shutdownNow();
         }
+    }
+
+    @Test
+    void aRetiredServerWorksForItsUsersUntilTheLastHasGivenItBackAndForNobodyElse() throws Exception {
+        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
+                .addService(answering(new AtomicBoolean()))
+                .build()
+                .start();
+        List<Interpreter> python = List.of(greeting(server));
+        List<Interpreter> another = List.of(greeting(server));
+        try (ServerConnection first = managed.acquire(python, Progress.NONE);
+                ServerConnection second = managed.acquire(python, Progress.NONE)) {
+            Set<ProcessHandle> old = processes();
+            managed.retire();
+            assertThat(first.client().info(false).version()).isEqualTo("9.9.9");
+            try (ServerConnection next = managed.acquire(another, Progress.NONE)) {
+                assertThat(next.client()).isNotSameAs(first.client());
+                assertThat(processes()).containsAll(old).hasSize(old.size() + 1);
+                first.close();
+                assertThat(second.client().info(false).version()).isEqualTo("9.9.9");
+                second.close();
+                assertThat(processes()).doesNotContainAnyElementsOf(old).hasSize(1);
+                assertThat(next.client().info(false).version()).isEqualTo("9.9.9");
+            }
+            managed.retire();
+            assertThat(processes()).as("nobody used it").isEmpty();
+        } finally {
+            managed.end();
+            server.shutdownNow();
+        }
+    }
+
+    @Test
+    void aRetiredServerEndsWithImageJ() throws Exception {
+        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
+                .addService(answering(new AtomicBoolean()))
+                .build()
+                .start();
+        try (ServerConnection connection = managed.acquire(List.of(greeting(server)), Progress.NONE)) {
+            managed.retire();
+            assertThat(processes()).isNotEmpty();
+            managed.close();
+            assertThat(processes()).isEmpty();
+            assertThatThrownBy(() -> connection.client().info(false)).isInstanceOf(DetectorException.class);
+        } finally {
+            server.shutdownNow();
+        }
+    }
+
+    /** The scripts of this test that run. */
+    private Set<ProcessHandle> processes() {
+        return ProcessHandle.current()
+                .descendants()
+                .filter(process -> process.info().commandLine().orElse("").contains(folder.toString()))
+                .collect(Collectors.toSet());
     }
 
     private static List<String> warnings(ManagedServer managed, Interpreter python) {
