@@ -60,7 +60,7 @@ final class Answers implements ClientResponseObserver<DetectFilmRequest, DetectF
         wake();
         closed = true;
         if (failure == null) {
-            failure = Failures.of(Status.fromThrowable(error));
+            failure = Failures.ofFilm(Status.fromThrowable(error));
         }
     }
 

@@ -10,8 +10,20 @@ import org.memtrack.detection.DetectorException;
 final class Failures {
     private Failures() {}
 
+    /**
+     * Of a film's call, which has no deadline of its own: one that is exceeded is the server's, which waited in vain for a
+     * frame and says so.
+     */
+    static DetectorException ofFilm(Status status) {
+        String said = said(status);
+        return status.getCode() == Status.Code.DEADLINE_EXCEEDED && !said.isBlank()
+                ? new DetectorException(asSentence(said), status.asRuntimeException())
+                : of(status);
+    }
+
+    /** Of any other call. */
     static DetectorException of(Status status) {
-        String said = status.getDescription() == null ? "" : status.getDescription();
+        String said = said(status);
         String sentence = switch (status.getCode()) {
             // The server's own sentences.
             case INVALID_ARGUMENT, NOT_FOUND, RESOURCE_EXHAUSTED, FAILED_PRECONDITION ->
@@ -36,6 +48,10 @@ final class Failures {
                         + " \"MEMTrack Check Installation\".";
         };
         return new DetectorException(sentence, status.asRuntimeException());
+    }
+
+    private static String said(Status status) {
+        return status.getDescription() == null ? "" : status.getDescription();
     }
 
     /** What went wrong first, in brackets, for example that a certificate is not trusted; empty when nothing says it. */

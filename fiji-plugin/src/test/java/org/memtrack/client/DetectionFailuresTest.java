@@ -41,7 +41,8 @@ class DetectionFailuresTest {
                     FAILED_PRECONDITION | model "x" is damaged           | Model "x" is damaged.
                     UNAUTHENTICATED     | -                              | MEMTRACK_TOKEN
                     UNAVAILABLE         | io exception                   | run again
-                    DEADLINE_EXCEEDED   | -                              | did not answer in time
+                    DEADLINE_EXCEEDED   | no frame came for 60 s         | No frame came for 60 s.
+                    DEADLINE_EXCEEDED   | ''                             | did not answer in time
                     UNIMPLEMENTED       | -                              | no MEMTrack server
                     INTERNAL            | ZeroDivisionError              | ZeroDivisionError
                     """)
@@ -53,6 +54,14 @@ class DetectionFailuresTest {
                 .message()
                 .endsWith(".")
                 .doesNotContain("\n");
+    }
+
+    @Test
+    void theDeadlineOfAnotherCallIsOursAndNotTheServers() {
+        Status ours = Status.DEADLINE_EXCEEDED.withDescription("CallOptions deadline exceeded after 29.9s");
+        assertThat(Failures.of(ours))
+                .hasMessage("The server did not answer in time: the computer may be too busy; run again, or restart"
+                        + " ImageJ to start a new server.");
     }
 
     @Test
