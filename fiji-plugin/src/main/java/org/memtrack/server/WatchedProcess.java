@@ -19,6 +19,11 @@ import org.memtrack.client.Progress;
 final class WatchedProcess {
     private static final Set<Process> RUNNING = ConcurrentHashMap.newKeySet();
 
+    /** A parent that reaps its children does so within milliseconds; others never do. */
+    private static final Duration REAPING_LIMIT = Duration.ofSeconds(1);
+
+    private static final Duration ENDING_LIMIT = Duration.ofSeconds(5);
+
     static {
         Runtime.getRuntime()
                 .addShutdownHook(new Thread(() -> RUNNING.forEach(WatchedProcess::kill), "memtrack-programs-end"));
@@ -72,16 +77,43 @@ final class WatchedProcess {
     /** Ends it and its children; on Windows the python of a venv is a launcher, and its child the real one. */
     private static void kill(Process process) {
         List<ProcessHandle> family = new ArrayList<>(process.descendants().toList());
+        killChildren(process.toHandle());
+        // What it has started meanwhile.
+        process.descendants().forEach(late -> {
+            late.destroyForcibly();
+            family.add(late);
+        });
+        process.destroyForcibly();
         family.add(process.toHandle());
-        family.forEach(ProcessHandle::destroyForcibly);
+        // On Windows files can be deleted only when their process has ended.
+        if (!await(family, ENDING_LIMIT)) {
+            System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Still running: " + family);
+        }
+    }
+
+    /**
+     * Ends the children and theirs before their parent, whose it is to reap them: left to the first process of a container
+     * that reaps nobody, they would stay as zombies, and never be told to have ended.
+     */
+    private static void killChildren(ProcessHandle parent) {
+        List<ProcessHandle> children = parent.children().toList();
+        children.forEach(WatchedProcess::killChildren);
+        children.forEach(ProcessHandle::destroyForcibly);
+        await(children, REAPING_LIMIT);
+    }
+
+    /** False when some have not ended in time. */
+    private static boolean await(List<ProcessHandle> processes, Duration limit) {
         try {
-            // On Windows files can be deleted only when their process has ended.
-            CompletableFuture.allOf(family.stream().map(ProcessHandle::onExit).toArray(CompletableFuture[]::new))
-                    .get(5, TimeUnit.SECONDS);
+            CompletableFuture.allOf(
+                            processes.stream().map(ProcessHandle::onExit).toArray(CompletableFuture[]::new))
+                    .get(limit.toMillis(), TimeUnit.MILLISECONDS);
+            return true;
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
+            return true;
         } catch (ExecutionException | TimeoutException e) {
-            System.getLogger("org.memtrack").log(System.Logger.Level.INFO, "Still running: " + family, e);
+            return false;
         }
     }
 }
