@@ -5,7 +5,6 @@ import ij.IJ;
 import ij.Macro;
 import ij.gui.GenericDialog;
 import ij.plugin.PlugIn;
-import ij.plugin.frame.Recorder;
 import java.awt.Checkbox;
 import java.awt.GraphicsEnvironment;
 import java.awt.TextField;
@@ -59,9 +58,7 @@ public final class InstallCommand implements PlugIn {
             options.put("python", python);
         }
         options.put("torch", Boolean.toString(((Checkbox) dialog.getCheckboxes().get(0)).getState()));
-        if (Recorder.record) {
-            options.forEach((key, value) -> Recorder.recordOption(key, value.replace('\\', '/')));
-        }
+        RecordedLine.write(options);
         return Optional.of(options);
     }
 

@@ -6,7 +6,6 @@ import ij.ImagePlus;
 import ij.Macro;
 import ij.WindowManager;
 import ij.plugin.PlugIn;
-import ij.plugin.frame.Recorder;
 import java.awt.GraphicsEnvironment;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
@@ -49,7 +48,7 @@ public final class TrackCommand implements PlugIn {
             return Optional.of(TrackRequest.of(OptionLine.parse(options == null ? "" : options)));
         }
         Optional<TrackRequest> request = TrackDialog.ask(image);
-        request.ifPresent(wanted -> record(wanted.options()));
+        request.ifPresent(wanted -> RecordedLine.write(wanted.options()));
         return request;
     }
 
@@ -99,11 +98,5 @@ public final class TrackCommand implements PlugIn {
 
     private static void note(String sentence) {
         IJ.log("MEMTrack, note: " + sentence);
-    }
-
-    private static void record(Map<String, String> options) {
-        if (Recorder.record) {
-            options.forEach((key, value) -> Recorder.recordOption(key, value.replace('\\', '/')));
-        }
     }
 }

@@ -7,6 +7,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import ij.plugin.frame.Recorder;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Map;
 import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -41,6 +42,20 @@ class CommandOptionsTest {
         Recorder.recordPath(OpenInTrackMateCommand.QUESTION, "/my films/tracks.xml");
         assertThat(Recorder.getCommandOptions()).isEqualTo("file=[/my films/tracks.xml]");
         Recorder.setCommand(null);
+    }
+
+    @Test
+    void whatIsRecordedDoesNotWaitForTheEndOfTheCommand() {
+        boolean before = Recorder.record;
+        Recorder.record = true;
+        try {
+            RecordedLine.write(Map.of("output", "/my films/out"));
+            assertThat(Recorder.getCommandOptions())
+                    .as("what another command would lose or get")
+                    .isNull();
+        } finally {
+            Recorder.record = before;
+        }
     }
 
     private static void refuses(ThrowingCallable work, String... parts) {
