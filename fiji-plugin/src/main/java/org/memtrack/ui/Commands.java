@@ -4,8 +4,10 @@ package org.memtrack.ui;
 import ij.IJ;
 import ij.Macro;
 import ij.macro.Interpreter;
+import ij.plugin.frame.Recorder;
 import java.awt.GraphicsEnvironment;
 import java.util.concurrent.CancellationException;
+import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
 
 /** How every command ends: a failure is one sentence to the user and stops the macro it was called from. */
@@ -16,10 +18,22 @@ final class Commands {
 
     /** Runs a command's work in the calling thread, and ends it as ImageJ expects. */
     static void run(Runnable work) {
+        // A script is told by its options, or by ImageJ's own note that it runs a command for one.
+        run(work, !GraphicsEnvironment.isHeadless() && !IJ.isMacro() && Macro.getOptions() == null);
+    }
+
+    /** @param fromTheMenu whether the user has called, and no macro or script */
+    static void run(Runnable work, boolean fromTheMenu) {
+        String recorded = Recorder.getCommand();
         try {
             work.run();
         } catch (CancellationException e) {
             IJ.showStatus("MEMTrack: cancelled");
+            if (fromTheMenu) {
+                // There is no macro to stop, and what that takes would make ImageJ wipe the status.
+                forget(recorded);
+                return;
+            }
             if (GraphicsEnvironment.isHeadless()) {
                 IJ.log("MEMTrack: Cancelled.");
             }
@@ -48,6 +62,13 @@ final class Commands {
     /** In lines that fit into a dialog. */
     static String wrapped(String sentence) {
         return sentence.replaceAll("(.{1,80})(\\s+|$)", "$1\n").strip();
+    }
+
+    /** A command that was cancelled is not recorded, unless its line is there already; another one's is left alone. */
+    private static void forget(@Nullable String command) {
+        if (command != null && command.equals(Recorder.getCommand())) {
+            Recorder.disableCommandRecording();
+        }
     }
 
     private static void tell(String sentence) {

@@ -2,6 +2,7 @@
 package org.memtrack.ui;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.junit.jupiter.api.Assumptions.assumeTrue;
 
@@ -10,6 +11,7 @@ import java.awt.GraphicsEnvironment;
 import java.io.ByteArrayOutputStream;
 import java.io.PrintStream;
 import java.nio.charset.StandardCharsets;
+import java.util.concurrent.CancellationException;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.memtrack.detection.DetectorException;
@@ -45,6 +47,15 @@ class CommandsTest {
                 .startsWith("MEMTrack: MEMTrack failed unexpectedly")
                 .contains("ij/measure/Calibration")
                 .endsWith("please report this, with the error in the console.");
+    }
+
+    @Test
+    void whatTheUserCancelsEndsTheMacroAndACommandOfTheMenuJustEnds() {
+        Runnable cancelled = () -> {
+            throw new CancellationException();
+        };
+        assertThat(said(cancelled)).isEqualTo("MEMTrack: Cancelled.");
+        assertThatCode(() -> Commands.run(cancelled, true)).doesNotThrowAnyException();
     }
 
     /** What a command that fails prints, when it stops the macro as ImageJ expects. */
