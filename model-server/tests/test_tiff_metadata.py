@@ -38,11 +38,17 @@ def test_pixels_that_are_not_square_are_said(tmp_path: Path, height: float, said
     assert check(path, FILM, notes).pixel_size_um == 0.25
 
 
-@pytest.mark.parametrize("unit", ["pixel", "inch"])
-def test_imagej_tiff_in_pixels_or_in_inches_of_a_screen_tells_no_size(tmp_path: Path, unit: str) -> None:
+@pytest.mark.parametrize("unit", ["pixel", "inch", "cm"])
+def test_imagej_tiff_in_pixels_or_as_large_as_in_print_tells_no_size(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "film.tif"
     tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": unit}, resolution=(72.0, 72.0))
     assert check(path, FILM) == Calibration()
+
+
+def test_imagej_tiff_in_inches_of_a_microscope_tells_its_size(tmp_path: Path) -> None:
+    path = tmp_path / "film.tif"
+    tifffile.imwrite(path, FILM, imagej=True, metadata={"axes": "TYX", "unit": "inch"}, resolution=(101600.0, 101600.0))
+    assert check(path, FILM).pixel_size_um == pytest.approx(0.25)
 
 
 def test_the_rate_of_imagejs_animation_is_no_frame_interval(tmp_path: Path) -> None:

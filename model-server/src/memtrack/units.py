@@ -9,8 +9,12 @@ _MICROMETRES = {
     1.0: ("µm", "μm", "um", "micron", "microns", "micrometer", "micrometre", "micrometers", "micrometres"),
     1e3: ("mm", "millimeter", "millimetre", "millimeters", "millimetres"),
     1e4: ("cm", "centimeter", "centimetre"),
+    2.54e4: ("in", "inch", "inches"),
     1e6: ("m", "meter", "metre"),
 }
+_OF_PRINT = (1e4, 2.54e4)
+# Pixels on a screen or in print are larger as a rule, 300 an inch being 85 um; those of a microscope are smaller.
+_LARGEST_PIXEL_UM = 50.0
 _SECONDS = {
     1e-6: ("µs", "μs", "us", "usec"),
     1e-3: ("ms", "msec", "millisecond", "milliseconds"),
@@ -21,8 +25,20 @@ _SECONDS = {
 
 
 def micrometres(unit: str) -> float | None:
-    """Micrometres in one `unit`; None where it is pixels, inches of a screen, or unknown."""
+    """Micrometres in one `unit`; None where it is pixels or unknown."""
     return _found(unit, _MICROMETRES)
+
+
+def pixel_micrometres(size: float, unit: str) -> float | None:
+    """Edge in micrometres of a pixel of `size`; None as above, or where it is as large as in print.
+
+    A TIFF tells in inches or centimetres how large it is in print, unless a microscope's software puts the true size
+    there.
+    """
+    factor = micrometres(unit)
+    if factor is None:
+        return None
+    return None if factor in _OF_PRINT and size * factor > _LARGEST_PIXEL_UM else size * factor
 
 
 def seconds(unit: str) -> float | None:

@@ -22,7 +22,7 @@ from defusedxml.ElementTree import parse as parse_xml
 from memtrack.errors import InvalidInputError, SettingsError
 from memtrack.film import Calibration
 from memtrack.tracks import UNLINKED, Motility, TrackTable
-from memtrack.units import micrometres, seconds
+from memtrack.units import micrometres, pixel_micrometres, seconds
 
 _PIXEL_UNITS = ("pixel", "pixels", "px")
 
@@ -159,7 +159,7 @@ def _scale(unit: str, unit_size: float, calibration: Calibration) -> tuple[float
         return (unit_size if unit_size > 0 else 1.0), None
     in_micrometres = micrometres(unit)
     if unit_size > 0:
-        return unit_size, None if in_micrometres is None else unit_size * in_micrometres
+        return unit_size, pixel_micrometres(unit_size, unit)
     if calibration.pixel_size_um is not None and in_micrometres is not None:
         return calibration.pixel_size_um / in_micrometres, calibration.pixel_size_um
     raise SettingsError(

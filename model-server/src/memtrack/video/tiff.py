@@ -20,7 +20,7 @@ from jaxtyping import Shaped
 
 from memtrack.errors import FilmError
 from memtrack.film import Calibration
-from memtrack.units import micrometres, seconds
+from memtrack.units import micrometres, pixel_micrometres, seconds
 from memtrack.video.source import Source, notes_on, red_first
 
 _AXIS_WORDS = {"T": "time points", "Z": "slices", "C": "channels"}
@@ -192,18 +192,16 @@ def _calibration(file: tifffile.TiffFile) -> tuple[Calibration, list[str]]:
 
 
 def _imagej(tags: dict[str, Any], file: tifffile.TiffFile) -> tuple[Calibration, list[str]]:
-    unit = micrometres(str(tags.get("unit", "")).replace("\\u00B5", "µ"))
+    unit = str(tags.get("unit", "")).replace("\\u00B5", "µ")
     width, height = (_edge(file, name, unit) for name in ("XResolution", "YResolution"))
     # Not by "fps": that is the rate of ImageJ's animation, whatever the film was recorded at.
     interval = float(tags.get("finterval", 0) or 0) * (seconds(str(tags.get("tunit", "sec"))) or 0)
     return Calibration(width, interval if interval > 0 else None), _shape(width, height)
 
 
-def _edge(file: tifffile.TiffFile, resolution: str, unit: float | None) -> float | None:
+def _edge(file: tifffile.TiffFile, resolution: str, unit: str) -> float | None:
     tag = file.pages.first.tags.get(resolution)
-    if unit is None or tag is None or min(tag.value) <= 0:
-        return None
-    return tag.value[1] / tag.value[0] * unit
+    return None if tag is None or min(tag.value) <= 0 else pixel_micrometres(tag.value[1] / tag.value[0], unit)
 
 
 def _shape(width: float | None, height: float | None) -> list[str]:

@@ -107,7 +107,9 @@ class ImageFilmTest {
         "microns, 0.5, min, 2, 0.5, 120",
         "nm, 250, msec, 16, 0.25, 0.016",
         "mm, 0.001, h, 1, 1, 3600",
-        "cm, 0.0001, s, 1, 1, 1"
+        "cm, 0.0001, s, 1, 1, 1",
+        "inch, 0.0009765625, s, 1, 24.8046875, 1",
+        "mm, 0.25, s, 1, 250, 1"
     })
     void unitsAreConverted(
             String unit, double pixelWidth, String timeUnit, double interval, double micrometres, double seconds) {
@@ -124,7 +126,7 @@ class ImageFilmTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"pixel, 1", "inch, 0.0138", "furlong, 3", "um, 0", "um, NaN"})
+    @CsvSource({"pixel, 1", "inch, 0.0138", "cm, 0.03528", "furlong, 3", "um, 0", "um, NaN"})
     void withoutCalibrationTheUserIsWarned(String unit, double pixelWidth) {
         ImagePlus image = IJ.createImage("x", "8-bit", 4, 3, 1);
         image.getCalibration().setUnit(unit);
