@@ -13,6 +13,7 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
 import java.util.OptionalDouble;
+import java.util.stream.IntStream;
 import java.util.stream.Stream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -98,6 +99,21 @@ class WrittenFilesTest {
         assertThat(TrackCsv.decimal(-0.00001)).isEqualTo("0.0000");
         assertThat(TrackCsv.decimal(-3.05)).isEqualTo("-3.0500");
         assertThat(TrackCsv.decimal(1e13)).isEqualTo("1.0E13");
+    }
+
+    @Test
+    void timesTellTheFramesOfAFastCameraApart() throws IOException {
+        FilmInfo fast = new FilmInfo(
+                "fast", Optional.empty(), 100, 80, 4, OptionalDouble.empty(), OptionalDouble.of(1 / 20_000.0));
+        Track track = new Track(
+                0,
+                IntStream.range(0, 4)
+                        .mapToObj(frame -> new TrackPoint(frame, Box.around(10, 10, 8, 8), null))
+                        .toList());
+        Path file = folder.resolve("fast.csv");
+        TrackCsv.write(file, TrackedFilm.of(fast, List.of(track), List.of()));
+        assertThat(Files.readAllLines(file).stream().skip(1).map(row -> row.split(",")[2]))
+                .containsExactly("0.000000", "0.000050", "0.000100", "0.000150");
     }
 
     @Test
