@@ -13,6 +13,7 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Locale;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeSet;
@@ -54,7 +55,8 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, Set<
         if (image == null) {
             throw new DetectorException("These tracks have no film: open it, then load the TrackMate file again.");
         }
-        ImageFilm film = new ImageFilm(image, options(trackmate));
+        FilmOptions options = options(trackmate);
+        ImageFilm film = new ImageFilm(image, options);
         TrackModel model = trackmate.getModel().getTrackModel();
         List<Track> tracks = new ArrayList<>();
         List<String> names = new ArrayList<>();
@@ -80,12 +82,42 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, Set<
                             ? "There is no visible track: track first, or loosen the track filters."
                             : "Every visible track splits or merges: cut them where they do, in TrackScheme.");
         }
-        List<String> notes = new ArrayList<>(film.warnings());
+        List<String> notes = calibrationNotes(film.info(), options);
         if (!branching.isEmpty()) {
             notes.add("Left out, since they split or merge: %s.".formatted(String.join(", ", branching)));
         }
         List<FrameDetections> drift = SpotDrift.of(trackmate.getModel().getSpots(), settings.dx, settings.dy);
         return new ModelTracks(TrackedFilm.of(film.info(), tracks, drift), film, names, measured, notes);
+    }
+
+    /**
+     * What the user should know of the units. The film's own warnings are meant for the menu command: they name its options,
+     * which an action does not have, and its files.
+     *
+     * @param told what TrackMate tells of the film
+     */
+    static List<String> calibrationNotes(FilmInfo info, FilmOptions told) {
+        List<String> notes = new ArrayList<>();
+        String remedy = "in Image > Properties and start TrackMate again.";
+        if (info.pixelSizeMicrometres().isEmpty() || info.frameIntervalSeconds().isEmpty()) {
+            notes.add("The film has no %s: speeds are in pixels a frame; set what is missing %s"
+                    .formatted(
+                            info.pixelSizeMicrometres().isPresent()
+                                    ? "frame interval"
+                                    : info.frameIntervalSeconds().isPresent()
+                                            ? "pixel size"
+                                            : "pixel size and no frame interval",
+                            remedy));
+        }
+        if (told.frameIntervalSeconds().isEmpty()) {
+            info.frameIntervalSeconds()
+                    .ifPresent(interval -> notes.add(String.format(
+                            Locale.ROOT,
+                            "The frame interval, %.4g s, is taken from the film's playback rate; if it was recorded at another rate, set that %s",
+                            interval,
+                            remedy)));
+        }
+        return notes;
     }
 
     /** Writes them as a table, without the sizes that are a guess. */
