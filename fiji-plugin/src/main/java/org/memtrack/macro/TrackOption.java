@@ -20,7 +20,12 @@ import org.memtrack.video.FrameAxis;
 
 /** An option of the command "MEMTrack Track": the one table that macro, dialog, recorder and manual derive from. */
 public enum TrackOption {
-    OUTPUT("output", "Output folder", Kind.FOLDER, "", "folder for the results; made if missing. Required"),
+    OUTPUT(
+            "output",
+            "Output folder",
+            Kind.FOLDER,
+            "",
+            "folder for the results, its whole path; made if missing. Required"),
     PRESET(
             "preset",
             "Medium",

@@ -48,7 +48,7 @@ public record TrackRequest(
         }
         try {
             return new TrackRequest(
-                    GivenPath.of(values.text(OUTPUT)).toAbsolutePath(),
+                    output(values),
                     film(values),
                     new TrackingSettings(detection(values), tracking(values), server(values), secondLook(values)),
                     values.flag(OVERLAY),
@@ -110,6 +110,17 @@ public record TrackRequest(
                                     : "thresholds are given"));
         }
         return warnings;
+    }
+
+    /** A part of a path would lead from the folder that Fiji was started in, which users do not know. */
+    private static Path output(OptionValues values) {
+        Path folder = GivenPath.of(values.text(OUTPUT));
+        if (!folder.isAbsolute()) {
+            throw new DetectorException(
+                    "The output folder \"%s\" would lie wherever Fiji was started: give its whole path, as in /films/tracks or C:/films/tracks."
+                            .formatted(folder));
+        }
+        return folder;
     }
 
     /** Who gives thresholds wants nothing below them, and the authors look once. */

@@ -35,6 +35,6 @@ final class OfferedFolder {
     private static String beside(ImagePlus film) {
         FileInfo info = film.getOriginalFileInfo();
         File folder = new File(info == null || info.directory == null ? "" : info.directory);
-        return folder.isDirectory() ? new File(folder, "memtrack").getPath() : "";
+        return folder.isDirectory() ? new File(folder, "memtrack").getAbsolutePath() : "";
     }
 }
