@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.Map;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.detection.DetectorException;
-import org.memtrack.macro.OptionLine;
+import org.memtrack.macro.MacroOptions;
 
 /** The options that a macro gives to a command with few of them. */
 final class CommandOptions {
@@ -18,7 +18,7 @@ final class CommandOptions {
      * @throws DetectorException when the line holds another key
      */
     static Map<String, String> of(@Nullable String line, String command, String... keys) {
-        Map<String, String> options = OptionLine.parse(line == null ? "" : line);
+        Map<String, String> options = MacroOptions.of(line == null ? "" : line);
         List<String> known = List.of(keys);
         for (String key : options.keySet()) {
             if (!known.contains(key)) {

@@ -15,7 +15,7 @@ import java.util.Optional;
 import org.jspecify.annotations.Nullable;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
-import org.memtrack.macro.OptionLine;
+import org.memtrack.macro.MacroOptions;
 import org.memtrack.macro.TrackRequest;
 import org.memtrack.run.Origin;
 import org.memtrack.run.ResultFiles;
@@ -45,7 +45,7 @@ public final class TrackCommand implements PlugIn {
 
     private static Optional<TrackRequest> request(ImagePlus image, @Nullable String options) {
         if (options != null || GraphicsEnvironment.isHeadless()) {
-            return Optional.of(TrackRequest.of(OptionLine.parse(options == null ? "" : options)));
+            return Optional.of(TrackRequest.of(MacroOptions.of(options == null ? "" : options)));
         }
         Optional<TrackRequest> request = TrackDialog.ask(image);
         request.ifPresent(wanted -> RecordedLine.write(wanted.options()));

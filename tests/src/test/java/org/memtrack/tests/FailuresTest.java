@@ -40,6 +40,8 @@ class FailuresTest {
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | last_frame=9           | 1 to 8 instead of 1 to 9
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | thresold=0.5           | "thresold" is no option
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | criterion=best         | [maximum precision]
+                    newImage("g", "8-bit", 64, 48, 1, 1, 8); x = "agar"; | preset=&x           | Medium (preset) cannot be "agar"
+                    newImage("g", "8-bit", 64, 48, 1, 1, 8);          | preset=&x              | no variable x
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | model=nonesuch         | nonesuch
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | python=/no/such/python | There is no Python
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | server=127.0.0.1:1     | cannot be reached
