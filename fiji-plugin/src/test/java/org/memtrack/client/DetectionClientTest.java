@@ -14,6 +14,8 @@ import java.util.ArrayList;
 import java.util.BitSet;
 import java.util.List;
 import java.util.OptionalDouble;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 import org.junit.jupiter.api.Test;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
@@ -139,10 +141,12 @@ class DetectionClientTest {
     @Test
     void progressTellsStageFractionAndTimeLeft() throws Exception {
         List<String> said = new ArrayList<>();
+        CountDownLatch heard = new CountDownLatch(1);
         Progress progress = new Progress() {
             @Override
             public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
                 said.add("%s %s %s %s".formatted(stage, fraction, secondsLeft.orElse(-1), message));
+                heard.countDown();
             }
 
             @Override
@@ -153,7 +157,7 @@ class DetectionClientTest {
         try (ScriptedServer server = new ScriptedServer(responses -> {
             responses.onNext(accepted());
             responses.onNext(progress(0.5));
-            waitAMoment();
+            await(heard);
             answerFrames(responses, 4);
         })) {
             server.client().detect(FILM, DetectionSettings.DEFAULTS, progress.between(0.5, 1));
@@ -174,10 +178,10 @@ class DetectionClientTest {
         responses.onCompleted();
     }
 
-    private static void waitAMoment() {
+    private static void await(CountDownLatch heard) {
         try {
-            // Longer than the client's poll, so that it sees this standing before the end.
-            Thread.sleep(400);
+            // The client passes over a standing when the end has come.
+            assertThat(heard.await(10, TimeUnit.SECONDS)).isTrue();
         } catch (InterruptedException e) {
             throw new IllegalStateException(e);
         }

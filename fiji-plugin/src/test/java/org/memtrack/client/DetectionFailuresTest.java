@@ -33,6 +33,9 @@ import org.memtrack.video.SampleType;
 class DetectionFailuresTest {
     private static final SyntheticFilm FILM = new SyntheticFilm(7, 5, 4, SampleType.UINT8);
 
+    /** At once, but on a machine with much else to do; a third of the silence after which a server is given up. */
+    private static final long SOON_SECONDS = 10;
+
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
                     INVALID_ARGUMENT    | frame 3 holds NaN; set it to 0 | Frame 3 holds NaN; set it to 0.
@@ -127,19 +130,21 @@ class DetectionFailuresTest {
             assertThatThrownBy(() -> client.detect(FILM, DetectionSettings.DEFAULTS, Progress.NONE))
                     .isInstanceOf(DetectorException.class)
                     .hasMessageContaining("silent");
-            assertThat(server.cancelled.await(5, TimeUnit.SECONDS)).isTrue();
+            assertThat(server.cancelled.await(SOON_SECONDS, TimeUnit.SECONDS)).isTrue();
         }
     }
 
     @Test
-    void cancellingEndsTheCallOnBothSidesWithinASecond() throws Exception {
+    void cancellingEndsTheCallOnBothSidesWithoutWaitingForTheServer() throws Exception {
         CountDownLatch received = new CountDownLatch(1);
         try (ScriptedServer server = new ScriptedServer(responses -> received.countDown())) {
-            long start = System.nanoTime();
-            assertThatThrownBy(() -> server.client().detect(FILM, DetectionSettings.DEFAULTS, cancelledOnce(received)))
-                    .isInstanceOf(CancellationException.class);
-            assertThat(server.cancelled.await(1, TimeUnit.SECONDS)).isTrue();
-            assertThat(System.nanoTime() - start).isLessThan(TimeUnit.SECONDS.toNanos(1));
+            DetectionClient client = server.client();
+            CompletableFuture<DetectionResult> result = CompletableFuture.supplyAsync(
+                    () -> client.detect(FILM, DetectionSettings.DEFAULTS, cancelledOnce(received)));
+            received.await();
+            assertThatThrownBy(() -> result.get(SOON_SECONDS, TimeUnit.SECONDS))
+                    .hasCauseInstanceOf(CancellationException.class);
+            assertThat(server.cancelled.await(SOON_SECONDS, TimeUnit.SECONDS)).isTrue();
         }
     }
 
@@ -158,7 +163,7 @@ class DetectionFailuresTest {
             caller.start();
             server.headerReceived.await();
             caller.interrupt();
-            assertThat(flag.get(2, TimeUnit.SECONDS)).isTrue();
+            assertThat(flag.get(SOON_SECONDS, TimeUnit.SECONDS)).isTrue();
         }
     }
 
@@ -171,7 +176,7 @@ class DetectionFailuresTest {
                     CompletableFuture.supplyAsync(() -> client.detect(FILM, DetectionSettings.DEFAULTS, Progress.NONE));
             received.await();
             server.kill();
-            assertThatThrownBy(() -> result.get(2, TimeUnit.SECONDS))
+            assertThatThrownBy(() -> result.get(SOON_SECONDS, TimeUnit.SECONDS))
                     .isInstanceOf(ExecutionException.class)
                     .hasRootCauseInstanceOf(io.grpc.StatusRuntimeException.class)
                     .cause()
@@ -213,7 +218,7 @@ class DetectionFailuresTest {
             DetectionClient client = server.client();
             assertThatThrownBy(() -> client.detect(broken, DetectionSettings.DEFAULTS, Progress.NONE))
                     .hasMessage("Slice 1 cannot be read: open the film again.");
-            assertThat(server.cancelled.await(1, TimeUnit.SECONDS)).isTrue();
+            assertThat(server.cancelled.await(SOON_SECONDS, TimeUnit.SECONDS)).isTrue();
         }
     }
 
