@@ -113,6 +113,7 @@ class FailuresTest {
     }
 
     private static CompletableFuture<Outcome> start(Path output) {
+        Session.forget();
         return CompletableFuture.supplyAsync(() -> {
             try {
                 return Session.run(FilmMacro.of(film, "output=[%s]".formatted(output)), film.toString());
@@ -124,7 +125,8 @@ class FailuresTest {
 
     /** The film has arrived when the server tells of its next step. */
     private static ProcessHandle waitUntilTheServerWorks() throws Exception {
-        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(40);
+        // A server is given 120 s to start.
+        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(200);
         while (System.nanoTime() < end) {
             Thread.sleep(50);
             if (Session.log().contains("Stabilising")) {

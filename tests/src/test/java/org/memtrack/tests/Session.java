@@ -33,10 +33,15 @@ final class Session {
         }
     }
 
+    /** Forgets what the last macro has printed; to be called before one is run in another thread, whose log is waited for. */
+    static void forget() {
+        printed = new ByteArrayOutputStream();
+    }
+
     /** Runs a macro; images that were open are closed before. */
     static Outcome run(String macro, String argument) throws Exception {
         PrintStream console = System.out;
-        printed = new ByteArrayOutputStream();
+        forget();
         System.setOut(new PrintStream(printed, true, StandardCharsets.UTF_8));
         try {
             String result = IMAGEJ.run("close(\"*\");\n" + macro, argument);
