@@ -16,6 +16,7 @@ import java.util.Optional;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
+import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -31,10 +32,21 @@ class ProcessesTest {
 
     private static Path film;
 
+    private final List<Process> launched = new ArrayList<>();
+
     @BeforeAll
     static void makeAFilm() throws Exception {
         film = folder.resolve("film.tif");
         SwimmersFilm.save(film, 150, 320, 240);
+    }
+
+    /** What a failure has left running would slow down all that follows. */
+    @AfterEach
+    void endWhatStillRuns() {
+        for (Process process : launched) {
+            process.descendants().forEach(ProcessHandle::destroyForcibly);
+            process.destroyForcibly();
+        }
     }
 
     @Test
@@ -76,19 +88,15 @@ class ProcessesTest {
                 HeadlessImageJ.class,
                 film.toString(),
                 folder.resolve("orphan").toString());
-        try {
-            while (!Files.readString(log).contains("Stabilising")) {
-                assertThat(imageJ.isAlive()).as(Files.readString(log)).isTrue();
-                Thread.sleep(100);
-            }
-            List<ProcessHandle> servers = imageJ.descendants().toList();
-            assertThat(servers).isNotEmpty();
-            imageJ.destroyForcibly();
-            for (ProcessHandle server : servers) {
-                server.onExit().get(10, TimeUnit.SECONDS);
-            }
-        } finally {
-            imageJ.destroyForcibly();
+        while (!Files.readString(log).contains("Stabilising")) {
+            assertThat(imageJ.isAlive()).as(Files.readString(log)).isTrue();
+            Thread.sleep(100);
+        }
+        List<ProcessHandle> servers = imageJ.descendants().toList();
+        assertThat(servers).isNotEmpty();
+        imageJ.destroyForcibly();
+        for (ProcessHandle server : servers) {
+            server.onExit().get(10, TimeUnit.SECONDS);
         }
     }
 
@@ -112,7 +120,7 @@ class ProcessesTest {
     }
 
     /** Runs the macro as the command line "-batch" does; gives the exit code and all that was printed. */
-    private static String batch(String name, String macro) throws Exception {
+    private String batch(String name, String macro) throws Exception {
         Path log = folder.resolve(name + ".log");
         Path file = Files.writeString(folder.resolve(name), macro);
         Process process = launch(log, Map.of(), BatchImageJ.class, "-batch", file.toString());
@@ -132,7 +140,7 @@ class ProcessesTest {
                 Macros.class,
                 "run(\"MEMTrack Install Python Environment\", \"python=[%s]\");".formatted(Python.path()),
                 "run(\"MEMTrack Check Installation\");");
-        assertThat(process.waitFor(200, TimeUnit.SECONDS)).isTrue();
+        assertThat(process.waitFor(550, TimeUnit.SECONDS)).isTrue();
         assertThat(log)
                 .content(StandardCharsets.UTF_8)
                 .contains("is installed in " + home)
@@ -222,13 +230,13 @@ class ProcessesTest {
         }
     }
 
-    private static Process launch(Path log, Map<String, String> environment, Class<?> program, String... arguments)
+    private Process launch(Path log, Map<String, String> environment, Class<?> program, String... arguments)
             throws Exception {
         return launch(log, environment, List.of(), program, arguments);
     }
 
     /** @param jars further ones, as in Fiji's folder jars */
-    private static Process launch(
+    private Process launch(
             Path log, Map<String, String> environment, List<Path> jars, Class<?> program, String... arguments)
             throws Exception {
         List<String> command = new ArrayList<>(List.of(
@@ -253,6 +261,8 @@ class ProcessesTest {
                 builder.environment().put(key, value);
             }
         });
-        return builder.start();
+        Process process = builder.start();
+        launched.add(process);
+        return process;
     }
 }
