@@ -52,25 +52,13 @@ public final class TrackCommand implements PlugIn {
         return request;
     }
 
-    /**
-     * Tracks, with the image locked: another command, or the user who closes the window, would change frames or take them
-     * away while they are read, the last one when the picture is drawn.
-     */
     static void track(ImagePlus image, TrackRequest request, Progress progress) {
-        if (!image.lockSilently()) {
-            throw new DetectorException(
-                    "Another command works on \"%s\" and has locked it: wait until it has ended; if it hangs, unlock the image with Plugins > Utilities > Reset."
-                            .formatted(image.getTitle()));
-        }
-        try {
-            trackLocked(image, request, progress);
-        } finally {
-            image.unlock();
+        try (LockedImage locked = new LockedImage(image)) {
+            track(image, locked.film(request.film()), request, progress);
         }
     }
 
-    private static void trackLocked(ImagePlus image, TrackRequest request, Progress progress) {
-        ImageFilm film = new ImageFilm(image, request.film());
+    private static void track(ImagePlus image, ImageFilm film, TrackRequest request, Progress progress) {
         ResultFiles files = ResultFiles.in(request.output(), film);
         int frameCount = film.info().frameCount();
         TrackingSettings settings = request.settingsFor(frameCount);

@@ -14,7 +14,7 @@ import java.util.stream.Stream;
 import org.memtrack.detection.DetectorException;
 
 /** A film that ImageJ has open, in memory or as a virtual stack. */
-public final class ImageFilm implements Film {
+public class ImageFilm implements Film {
     private final ImagePlus image;
     private final ImageStack stack;
     private final FilmOptions options;

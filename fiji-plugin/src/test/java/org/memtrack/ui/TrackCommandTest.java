@@ -18,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.memtrack.client.Progress;
 import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.TrackRequest;
+import org.memtrack.video.ImageFilm;
 
 class TrackCommandTest {
     @TempDir
@@ -80,6 +81,18 @@ class TrackCommandTest {
                                 + " unlock the image with Plugins > Utilities > Reset.");
         assertThat(image.isLockedByAnotherThread()).isTrue();
         assertThat(folder).isEmptyDirectory();
+    }
+
+    @Test
+    void othersGetTheFilmOnceItsLastFrameIsRead() {
+        try (LockedImage locked = new LockedImage(image)) {
+            ImageFilm film = locked.film(request().film());
+            film.frame(7);
+            assertThat(inAnotherThread(image::lockSilently)).isFalse();
+            film.frame(8);
+            assertThat(inAnotherThread(image::lockSilently)).isTrue();
+        }
+        assertThat(image.isLocked()).isTrue();
     }
 
     private TrackRequest request() {
