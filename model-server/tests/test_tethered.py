@@ -8,8 +8,9 @@ import pytest
 from memtrack.background import Background, temporal_background
 from memtrack.film import ArrayFilm
 from memtrack.scene import Scene
+from memtrack.spots import SAMPLES, Spots
 from memtrack.stabilisation import FilmMotion, measure_motion
-from memtrack.tethered import SAMPLES, without_tethered
+from memtrack.tethered import without_tethered
 
 NOISE = 2.0
 HELD, DEBRIS = (60, 50), ((140, 90), (40, 110), (150, 30))
@@ -63,7 +64,9 @@ def told(film: ArrayFilm, noise: float = NOISE) -> tuple[Background, Background,
     """The background before and after, and the film's motion."""
     motion = measure_motion(film, stabilise=True, report=lambda done, total: None)
     before = temporal_background(film, motion, report=lambda done, total: None)
-    return before, without_tethered(before, film, motion, range(film.frame_count), noise), motion
+    spots = Spots.of(before, noise)
+    samples = spots.samples(before, film, motion, range(film.frame_count))
+    return before, without_tethered(before, spots, samples, noise), motion
 
 
 def heights(background: Background, debris: tuple[tuple[int, int], ...] = DEBRIS) -> list[float]:
@@ -124,7 +127,7 @@ def test_every_frame_that_is_read_is_told() -> None:
     film = film_of(wiggle=0.6)
     before, _, motion = told(film)
     calls: list[None] = []
-    without_tethered(before, film, motion, range(film.frame_count), NOISE, lambda: calls.append(None))
+    Spots.of(before, NOISE).samples(before, film, motion, range(film.frame_count), lambda: calls.append(None))
     assert len(calls) == SAMPLES
 
 

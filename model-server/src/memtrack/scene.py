@@ -3,8 +3,8 @@
 
 A film has one background as long as it fits into one window. A longer one, whose fibres remodel and whose focus drifts,
 has one for each of overlapping windows, and fades from one to the next. A bacterium that rests for more than half of a
-window is part of its background and leaves a ghost when it goes, so windows are long and none is cut short at the
-film's ends.
+window is part of its background and leaves a ghost when it goes, if it is not told (`memtrack.leavers`), so windows are
+long and none is cut short at the film's ends.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from memtrack.channels import Channel, Image, shading_of, signed
 from memtrack.clouds import change_besides_clouds
 from memtrack.film import Film
 from memtrack.fixed_pattern import fixed_pattern
+from memtrack.leavers import without_leavers
 from memtrack.resting import Looks, without_resting
+from memtrack.spots import Spots
 from memtrack.stabilisation import FilmMotion
 from memtrack.tethered import without_tethered
 from memtrack.wobble import Slopes
@@ -214,16 +216,25 @@ class Scene:
         return self._stills[number]
 
     def _made(self, number: int, report: Progress) -> Still:
-        window = self._windows.window(number)
-        background = self._background(window, report)
+        window, reached = self._windows.window(number), (1, 1)
+
+        def read(done: int, total: int) -> None:
+            nonlocal reached
+            reached = done, total
+            report(done, total)
+
+        background = self._background(window, read)
         if number == 0:  # told once, so that all backgrounds are of the same frames
             pattern = fixed_pattern(self.film, self.motion, background, window)
             if pattern is not None:
                 self.motion = replace(self.motion, pattern=pattern)
-                background = self._background(window, report)
+                background = self._background(window, read)
         besides_clouds = change_besides_clouds(background, self.film, self.motion, window)
         still = Still.of(background, besides_clouds, whole_numbers=self._whole_numbers)
-        freed = without_tethered(background, self.film, self.motion, window, still.noise, lambda: report(1, 1))
+        spots = Spots.of(background, still.noise)
+        samples = spots.samples(background, self.film, self.motion, window, lambda: report(*reached))
+        freed, spots = without_leavers(background, spots, samples)
+        freed = without_tethered(freed, spots, samples, still.noise)
         if self._looks is not None:
             freed, _ = without_resting(freed, still.noise, self._looks)
         return still if freed is background else still.with_median_of(freed)

@@ -4,13 +4,16 @@ where a bacterium stays in its place."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from jaxtyping import Bool, Float32, Int64
 
-from memtrack.background import Background
+from memtrack.background import Background, aligned_frame, split_drift
+from memtrack.film import Film
+from memtrack.stabilisation import FilmMotion
 
 CONTRAST, CLEARNESS = 3.0, 3.0
 """A spot stands out so many times more than the noise, and than what is around it."""
@@ -25,8 +28,12 @@ REACH_PX = 7
 """Half the edge of the patch around a spot."""
 SEPARATE_PX = 13
 """Spots nearer than this, along x and y, may be of one bacterium."""
+SAMPLES = 48
+"""Frames in which spots are looked at, spread evenly over those of the background."""
 
 Patches = Float32[np.ndarray, "spot edge edge"]
+Sample = tuple[Patches, Bool[np.ndarray, " spot"]]
+"""What is around each spot in a frame, and whether that shows all of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +61,30 @@ class Spots:
         clear = height[y, x] > np.maximum(CLEAR * around, STEADY * background.spread)[y, x]
         return cls(x, y, clear)
 
-    def patches(
-        self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)
-    ) -> tuple[Patches, Bool[np.ndarray, " spot"]]:
+    def samples(
+        self,
+        background: Background,
+        film: Film,
+        motion: FilmMotion,
+        frames: range,
+        alive: Callable[[], None] = lambda: None,
+    ) -> list[Sample]:
+        """Up to `SAMPLES` of them, in the order of their frames; none where there are no spots.
+
+        Args:
+            background: the spots' own.
+            film, motion: frames as the camera took them, and how the scene stands in them.
+            frames: consecutive ones of the film, those the background is made of.
+            alive: called for each frame that is read.
+        """
+        samples = []
+        for i in motion.sampled(frames, SAMPLES) if len(self.x) else ():
+            alive()
+            place = np.add(split_drift(motion.drift[i])[0], background.origin)
+            samples.append(self.patches(aligned_frame(film, motion, i), (int(place[0]), int(place[1]))))
+        return samples
+
+    def patches(self, image: Float32[np.ndarray, "h w"], place: tuple[int, int] = (0, 0)) -> Sample:
         """What is around each spot in an image in which the background's corner lies at `place` (x, y), and whether the
         image shows all of it."""
         h, w = image.shape
@@ -89,3 +117,20 @@ class Spots:
         around = cv2.GaussianBlur(median * free, (0, 0), 5) / np.maximum(cv2.GaussianBlur(free, (0, 0), 5), 1e-6)
         kept = cv2.GaussianBlur((free > 0).astype(np.float32), (0, 0), 1)
         return replace(background, median=np.asarray(median * kept + around * (1 - kept), np.float32))
+
+    def replaced(
+        self,
+        background: Background,
+        which: Bool[np.ndarray, " spot"],
+        by: Float32[np.ndarray, "chosen edge edge"],
+    ) -> Background:
+        """`background` with other patches in the median's place of each of these, blended in at their rims."""
+        across = np.arange(-REACH_PX, REACH_PX + 1)
+        disc = np.hypot(across, across[:, None]) < REACH_PX
+        share = cv2.GaussianBlur(disc.astype(np.float32), (0, 0), 1, borderType=cv2.BORDER_CONSTANT)
+        # The frames show all of a patch, so the background does.
+        median = background.median.copy()
+        for x, y, patch in zip(self.x[which].tolist(), self.y[which].tolist(), by, strict=True):
+            place = median[y - REACH_PX : y + REACH_PX + 1, x - REACH_PX : x + REACH_PX + 1]
+            place += share * (patch - place)
+        return replace(background, median=median)

@@ -10,7 +10,6 @@ The numbers were chosen on simulated films (docs/experiments.md, "Tethered bacte
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -18,13 +17,9 @@ import cv2
 import numpy as np
 from jaxtyping import Bool, Float, Float32
 
-from memtrack.background import Background, aligned_frame, split_drift
-from memtrack.film import Film
-from memtrack.spots import REACH_PX, Patches, Spots
-from memtrack.stabilisation import FilmMotion
+from memtrack.background import Background
+from memtrack.spots import REACH_PX, Sample, Spots
 
-SAMPLES = 48
-"""Frames, spread evenly over those of the background."""
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
 WIDTH_PX = 4.0
@@ -47,9 +42,6 @@ LEAST_STEP_PX = 0.11
 """Smaller steps are left alone: what stands so still is not told from a residue of the stage's motion."""
 
 
-_Sample = tuple[Patches, Bool[np.ndarray, " spot"]]
-
-
 @dataclass(frozen=True, slots=True)
 class _Moves:
     """How each spot moves from one sample to the next.
@@ -63,31 +55,22 @@ class _Moves:
     explained: Float[np.ndarray, " spot"]
 
 
-def without_tethered(
-    background: Background,
-    film: Film,
-    motion: FilmMotion,
-    frames: range,
-    noise: float,
-    alive: Callable[[], None] = lambda: None,
-) -> Background:
+def without_tethered(background: Background, spots: Spots, samples: list[Sample], noise: float) -> Background:
     """`background` with what surrounds them in the place of bacteria that wiggle; the same object if there are none.
 
     Args:
-        film, motion: frames as the camera took them, and how the scene stands in them.
-        frames: consecutive ones of the film, those the background is made of.
+        spots: of the background.
+        samples: what is around them in frames of the film, see `Spots.samples`.
         noise: what a deviation must exceed, in grey levels.
-        alive: called for each frame that is read.
     """
-    spots = Spots.of(background, noise)
     if not spots.clear.any():
         return background
-    moves = _moves(spots, _samples(spots, background, film, motion, frames, alive), background.median, noise)
+    moves = _moves(spots, samples, background.median, noise)
     # The halo of a bacterium moves with it, that of debris beside it does not: only the strongest spot is asked.
     return spots.filled(background, spots.clear & _moves_by_itself(spots, moves) & spots.strongest())
 
 
-def _moves(spots: Spots, samples: Iterator[_Sample], median: Float32[np.ndarray, "h w"], noise: float) -> _Moves:
+def _moves(spots: Spots, samples: list[Sample], median: Float32[np.ndarray, "h w"], noise: float) -> _Moves:
     """Steps from sample to sample, by the slopes of the median (Lucas and Kanade, 1981)."""
     smooth = cv2.GaussianBlur(median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
@@ -117,17 +100,6 @@ def _moves(spots: Spots, samples: Iterator[_Sample], median: Float32[np.ndarray,
     return _Moves(
         np.stack(steps, axis=2), np.maximum(error, 1e-9), (total - unexplained) / np.maximum(but_noise, 1e-12)
     )
-
-
-def _samples(
-    spots: Spots, background: Background, film: Film, motion: FilmMotion, frames: range, alive: Callable[[], None]
-) -> Iterator[_Sample]:
-    """What is around each spot in some of the frames, and whether these show all of it."""
-    left, top = background.origin
-    for i in motion.sampled(frames, SAMPLES):
-        alive()
-        x, y = split_drift(motion.drift[i])[0]
-        yield spots.patches(aligned_frame(film, motion, i), (x + left, y + top))
 
 
 def _moves_by_itself(spots: Spots, moves: _Moves) -> Bool[np.ndarray, " spot"]:
