@@ -33,7 +33,7 @@ settings.detectorSettings = settings.detectorFactory.defaultSettings
 settings.detectorSettings.THRESHOLDS = "MAXIMUM_F1" // or MAXIMUM_PRECISION, or GIVEN with THRESHOLD_LOW, _MEDIUM and _HIGH
 settings.trackerFactory = new MemtrackTrackerFactory()
 settings.trackerSettings = settings.trackerFactory.defaultSettings
-settings.trackerSettings.MINIMUM_TRACK_LENGTH = 30 // frames; 60 in collagen and 30 in water in the paper
+settings.trackerSettings.MINIMUM_TRACK_LENGTH = 30 // frames; the command has 60 in collagen and 30 in water, at most half of the film
 settings.addAllAnalyzers()
 
 def trackmate = new TrackMate(settings)

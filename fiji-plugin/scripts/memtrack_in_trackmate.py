@@ -31,7 +31,7 @@ detector_settings["THRESHOLDS"] = "MAXIMUM_F1"  # or MAXIMUM_PRECISION, or GIVEN
 settings.detectorSettings = detector_settings
 settings.trackerFactory = MemtrackTrackerFactory()
 tracker_settings = settings.trackerFactory.getDefaultSettings()
-tracker_settings["MINIMUM_TRACK_LENGTH"] = 30  # frames; 60 in collagen and 30 in water in the paper
+tracker_settings["MINIMUM_TRACK_LENGTH"] = 30  # frames; the command has 60 in collagen and 30 in water, at most half of the film
 settings.trackerSettings = tracker_settings
 settings.addAllAnalyzers()
 

@@ -55,7 +55,7 @@ public enum TrackOption {
             "Frame interval (s)",
             Kind.NUMBER,
             "",
-            "time between two frames in s; the image's own if left out"),
+            "time between two frames in s; if left out, the image's own, of an AVI that of the rate at which it plays"),
     CELL_LENGTH(
             "cell_length",
             "Cell length (px)",
@@ -68,7 +68,7 @@ public enum TrackOption {
             "Find resting cells, too",
             Kind.SWITCH,
             "false",
-            "find cells that never move, too: what stays in its place and is as dark or as bright as the cells that move, some debris with it; where the medium is clear"),
+            "find cells that never move, too: what stays in its place and is as dark or as bright as the cells that move, so that some debris comes with it; only for clear media"),
     OVERLAY("overlay", "Show tracks on the film", Kind.SWITCH, "true", "draw boxes and tracks over the open film"),
 
     FRAMES(
@@ -87,15 +87,15 @@ public enum TrackOption {
             "Threshold, low level",
             Kind.NUMBER,
             "",
-            "least score, 0 to 1, for the low level; give all three thresholds or none"),
-    THRESHOLD_MEDIUM("threshold_medium", "Threshold, medium level", Kind.NUMBER, "", "likewise for the medium level"),
-    THRESHOLD_HIGH("threshold_high", "Threshold, high level", Kind.NUMBER, "", "likewise for the high level"),
+            "least score, 0 to 1, of boxes that the detector takes for slow cells (level low); give all three thresholds or none"),
+    THRESHOLD_MEDIUM("threshold_medium", "Threshold, medium level", Kind.NUMBER, "", "likewise for the level medium"),
+    THRESHOLD_HIGH("threshold_high", "Threshold, high level", Kind.NUMBER, "", "likewise for fast cells (level high)"),
     MAX_SIZE(
             "max_size",
             "Greatest size (px)",
             Kind.NUMBER,
             "",
-            "wider or taller boxes are dropped, pixels at the model's scale, where its own are 30; 35 if left out"),
+            "wider or taller boxes are dropped; in pixels at the model's scale, not the film's, where all boxes of the shipped models are 30 wide, so that 30 or less is refused and more drops none; 35 if left out"),
     NMS_IOU(
             "nms_iou",
             "Greatest overlap (IoU)",
