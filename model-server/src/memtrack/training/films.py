@@ -206,6 +206,7 @@ _SHAPING = (
     "stabilisation.py",
     "background.py",
     "fixed_pattern.py",
+    "leavers.py",
     "clouds.py",
     "wobble.py",
     "spots.py",
