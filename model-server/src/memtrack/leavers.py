@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float32
 
 from memtrack.background import Background
-from memtrack.spots import REACH_PX, Sample, Spots
+from memtrack.spots import RADIUS_PX, Sample, Spots, gaussian
 
 WIDTH_PX = 3.0
 """Width (sigma) of the Gaussian weights of the patch around a spot."""
@@ -58,11 +58,11 @@ def _gone(
     seen: Bool[np.ndarray, "spot sample"],
 ) -> Bool[np.ndarray, "spot sample"]:
     """In which samples a spot that leaves is not there; in none where it does not leave."""
-    across = np.square(np.arange(-REACH_PX, REACH_PX + 1))
-    weight = np.exp(-(across[:, None] + across) / (2 * WIDTH_PX**2), dtype=np.float32)
+    weight = gaussian(WIDTH_PX)
     weight /= weight.sum()
     look = usual - np.einsum("sab,ab->s", usual, weight)[:, None, None]
     weighted = look * weight
+    # The mean is rounded, which adds up where grey levels are as large as in films of 16 bits.
     weighted -= np.einsum("sab->s", weighted)[:, None, None] * weight
     power = np.einsum("sab,sab->s", weighted, look)
     share = np.einsum("snab,sab->sn", patches, weighted) / np.maximum(power, 1e-12)[:, None]
@@ -92,5 +92,4 @@ def _is_small(
 ) -> bool:
     """Whether what comes and goes is as small as a bacterium."""
     power = np.square(np.median(patches[there], axis=0) - np.median(patches[away], axis=0))
-    radius = np.hypot(*np.mgrid[-REACH_PX : REACH_PX + 1, -REACH_PX : REACH_PX + 1])
-    return bool(power[radius > OUTER_PX].mean() < MOST_OUTSIDE**2 * power[radius < INNER_PX].mean())
+    return bool(power[RADIUS_PX > OUTER_PX].mean() < MOST_OUTSIDE**2 * power[RADIUS_PX < INNER_PX].mean())

@@ -31,6 +31,10 @@ SEPARATE_PX = 13
 SAMPLES = 48
 """Frames in which spots are looked at, spread evenly over those of the background."""
 
+_ACROSS = np.arange(-REACH_PX, REACH_PX + 1)
+RADIUS_PX = np.hypot(_ACROSS, _ACROSS[:, None])
+"""How far each pixel of a patch lies from its centre."""
+
 Patches = Float32[np.ndarray, "spot edge edge"]
 Sample = tuple[Patches, Bool[np.ndarray, " spot"]]
 """What is around each spot in a frame, and whether that shows all of it."""
@@ -90,8 +94,7 @@ class Spots:
         h, w = image.shape
         x, y = self.x + place[0], self.y + place[1]
         whole = (x >= REACH_PX) & (x < w - REACH_PX) & (y >= REACH_PX) & (y < h - REACH_PX)
-        across = np.arange(-REACH_PX, REACH_PX + 1)
-        rows, columns = np.clip(y[:, None] + across, 0, h - 1), np.clip(x[:, None] + across, 0, w - 1)
+        rows, columns = np.clip(y[:, None] + _ACROSS, 0, h - 1), np.clip(x[:, None] + _ACROSS, 0, w - 1)
         return image[rows[:, :, None], columns[:, None, :]], whole
 
     def near(self) -> Bool[np.ndarray, "spot spot"]:
@@ -125,12 +128,18 @@ class Spots:
         by: Float32[np.ndarray, "chosen edge edge"],
     ) -> Background:
         """`background` with other patches in the median's place of each of these, blended in at their rims."""
-        across = np.arange(-REACH_PX, REACH_PX + 1)
-        disc = np.hypot(across, across[:, None]) < REACH_PX
-        share = cv2.GaussianBlur(disc.astype(np.float32), (0, 0), 1, borderType=cv2.BORDER_CONSTANT)
+        disc = (RADIUS_PX < REACH_PX).astype(np.float32)
+        share = cv2.GaussianBlur(disc, (0, 0), 1, borderType=cv2.BORDER_CONSTANT)
         # The frames show all of a patch, so the background does.
         median = background.median.copy()
         for x, y, patch in zip(self.x[which].tolist(), self.y[which].tolist(), by, strict=True):
             place = median[y - REACH_PX : y + REACH_PX + 1, x - REACH_PX : x + REACH_PX + 1]
             place += share * (patch - place)
         return replace(background, median=median)
+
+
+def gaussian(width_px: float) -> Float32[np.ndarray, "edge edge"]:
+    """Weights of a patch's pixels, 1 at its centre; width_px: their sigma."""
+    squared = np.square(_ACROSS)
+    weights: np.ndarray = np.exp(-(squared[:, None] + squared) / (2 * width_px**2), dtype=np.float32)
+    return weights

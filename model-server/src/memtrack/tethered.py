@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Float32
 
 from memtrack.background import Background
-from memtrack.spots import REACH_PX, Sample, Spots
+from memtrack.spots import Sample, Spots, gaussian
 
 LEAST_STEPS = 6
 """Fewer do not tell how far a spot typically moves."""
@@ -75,8 +75,7 @@ def _moves(spots: Spots, samples: list[Sample], median: Float32[np.ndarray, "h w
     smooth = cv2.GaussianBlur(median, (0, 0), 0.7)
     slopes = [spots.patches(cv2.Sobel(smooth, cv2.CV_32F, *axis, scale=1 / 8))[0] for axis in ((1, 0), (0, 1))]
     slope = np.stack(slopes, axis=1).reshape(len(spots.x), 2, -1)
-    across = np.square(np.arange(-REACH_PX, REACH_PX + 1))
-    weight = np.exp(-(across[:, None] + across) / (2 * WIDTH_PX**2), dtype=np.float32).ravel()
+    weight = gaussian(WIDTH_PX).ravel()
     weighted = slope * weight
     power = weighted @ slope.transpose(0, 2, 1)
     # A long bacterium has no slope along its axis.

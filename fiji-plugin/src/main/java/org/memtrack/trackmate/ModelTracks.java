@@ -99,15 +99,11 @@ record ModelTracks(TrackedFilm tracked, ImageFilm film, List<String> names, Set<
     static List<String> calibrationNotes(FilmInfo info, FilmOptions told) {
         List<String> notes = new ArrayList<>();
         String remedy = "in Image > Properties and start TrackMate again.";
-        if (info.pixelSizeMicrometres().isEmpty() || info.frameIntervalSeconds().isEmpty()) {
+        List<String> untold =
+                Units.untold(info.pixelSizeMicrometres(), "pixel size", info.frameIntervalSeconds(), "frame interval");
+        if (!untold.isEmpty()) {
             notes.add("The film has no %s: speeds are in pixels a frame; set what is missing %s"
-                    .formatted(
-                            info.pixelSizeMicrometres().isPresent()
-                                    ? "frame interval"
-                                    : info.frameIntervalSeconds().isPresent()
-                                            ? "pixel size"
-                                            : "pixel size and no frame interval",
-                            remedy));
+                    .formatted(String.join(" and no ", untold), remedy));
         }
         if (told.frameIntervalSeconds().isEmpty()) {
             info.frameIntervalSeconds()

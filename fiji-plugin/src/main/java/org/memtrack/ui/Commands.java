@@ -22,7 +22,11 @@ final class Commands {
         run(work, !GraphicsEnvironment.isHeadless() && !IJ.isMacro() && Macro.getOptions() == null);
     }
 
-    /** @param fromTheMenu whether the user has called, and no macro or script */
+    /**
+     * Likewise; a command of the menu that is cancelled just ends.
+     *
+     * @param fromTheMenu whether the user has called, and no macro or script
+     */
     static void run(Runnable work, boolean fromTheMenu) {
         String recorded = Recorder.getCommand();
         try {

@@ -55,14 +55,11 @@ record Calibrations(OptionalDouble pixelSizeMicrometres, OptionalDouble frameInt
             warnings.add(
                     "The film has no %s: speeds are reported in pixels per frame; to have them in um/s, set what is missing in Image > Properties or give %s."
                             .formatted(
-                                    pixelSize.isPresent()
-                                            ? "frame interval"
-                                            : interval.isPresent() ? "pixel size" : "pixel size and no frame interval",
-                                    pixelSize.isPresent()
-                                            ? FRAME_INTERVAL
-                                            : interval.isPresent()
-                                                    ? PIXEL_SIZE
-                                                    : PIXEL_SIZE + " and " + FRAME_INTERVAL));
+                                    String.join(
+                                            " and no ",
+                                            Units.untold(pixelSize, "pixel size", interval, "frame interval")),
+                                    String.join(
+                                            " and ", Units.untold(pixelSize, PIXEL_SIZE, interval, FRAME_INTERVAL))));
         }
         return new Calibrations(pixelSize, interval, warnings);
     }

@@ -2,6 +2,8 @@
 package org.memtrack.video;
 
 import ij.measure.Calibration;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.Locale;
 import java.util.OptionalDouble;
 
@@ -11,6 +13,22 @@ public final class Units {
     private static final double LARGEST_PIXEL_MICROMETRES = 50;
 
     private Units() {}
+
+    /** The names of what a film does not tell, of these two; speeds in um/s want both. */
+    public static List<String> untold(
+            OptionalDouble pixelSize,
+            String nameOfPixelSize,
+            OptionalDouble frameInterval,
+            String nameOfFrameInterval) {
+        List<String> names = new ArrayList<>();
+        if (pixelSize.isEmpty()) {
+            names.add(nameOfPixelSize);
+        }
+        if (frameInterval.isEmpty()) {
+            names.add(nameOfFrameInterval);
+        }
+        return names;
+    }
 
     /**
      * Edge of a pixel in micrometres; empty when the image is in pixels, in an unknown unit, or as large as in print: in inches

@@ -9,6 +9,7 @@ import io.grpc.Server;
 import io.grpc.Status;
 import io.grpc.okhttp.OkHttpServerBuilder;
 import io.grpc.stub.StreamObserver;
+import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -40,10 +41,7 @@ class ManagedServerTest {
     @Test
     void aServerInUseIsNotReplacedWhenItIsTooBusyToAnswer() throws Exception {
         AtomicBoolean busy = new AtomicBoolean();
-        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
-                .addService(answering(busy))
-                .build()
-                .start();
+        Server server = serving(busy);
         List<Interpreter> python = List.of(greeting(server));
         try (ServerConnection first = managed.acquire(python, Progress.NONE)) {
             busy.set(true);
@@ -60,10 +58,7 @@ class ManagedServerTest {
 
     @Test
     void anInstalledServerOfAnotherBuildIsToldOfAndOneTheUserNamedIsNot() throws Exception {
-        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
-                .addService(answering(new AtomicBoolean()))
-                .build()
-                .start();
+        Server server = serving(new AtomicBoolean());
         ServerWheel carried = SmallWheel.of(SmallWheel.SERVER, ">=3");
         ManagedServer ofThisBuild = new ManagedServer(Duration.ofMinutes(1), () -> Optional.of(carried));
         Interpreter named = greeting(server);
@@ -83,10 +78,7 @@ class ManagedServerTest {
 
     @Test
     void aRetiredServerWorksForItsUsersUntilTheLastHasGivenItBackAndForNobodyElse() throws Exception {
-        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
-                .addService(answering(new AtomicBoolean()))
-                .build()
-                .start();
+        Server server = serving(new AtomicBoolean());
         List<Interpreter> python = List.of(greeting(server));
         List<Interpreter> another = List.of(greeting(server));
         try (ServerConnection first = managed.acquire(python, Progress.NONE);
@@ -113,10 +105,7 @@ class ManagedServerTest {
 
     @Test
     void aRetiredServerEndsWithImageJ() throws Exception {
-        Server server = OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
-                .addService(answering(new AtomicBoolean()))
-                .build()
-                .start();
+        Server server = serving(new AtomicBoolean());
         try (ServerConnection connection = managed.acquire(List.of(greeting(server)), Progress.NONE)) {
             managed.retire();
             assertThat(processes()).isNotEmpty();
@@ -126,6 +115,13 @@ class ManagedServerTest {
         } finally {
             server.shutdownNow();
         }
+    }
+
+    private static Server serving(AtomicBoolean busy) throws IOException {
+        return OkHttpServerBuilder.forPort(0, InsecureServerCredentials.create())
+                .addService(answering(busy))
+                .build()
+                .start();
     }
 
     /** The scripts of this test that run. */

@@ -34,18 +34,7 @@ class TrackCommandTest {
     @Test
     void noOtherCommandGetsTheFilmWhileItIsTrackedAndThenTheyDo() {
         CompletableFuture<Boolean> othersMay = new CompletableFuture<>();
-        Progress cancelledAtOnce = new Progress() {
-            @Override
-            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
-                othersMay.complete(inAnotherThread(image::lockSilently));
-                throw new CancellationException();
-            }
-
-            @Override
-            public boolean cancelled() {
-                return true;
-            }
-        };
+        Progress cancelledAtOnce = cancelledAfter(() -> othersMay.complete(inAnotherThread(image::lockSilently)));
         assertThatThrownBy(() -> TrackCommand.track(image, request(), cancelledAtOnce))
                 .isInstanceOf(CancellationException.class);
         assertThat(othersMay).isCompletedWithValue(false);
@@ -54,18 +43,7 @@ class TrackCommandTest {
 
     @Test
     void aFilmThatWasClosedWhileItIsTrackedKeepsItsFrames() {
-        Progress closedMeanwhile = new Progress() {
-            @Override
-            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
-                image.flush(); // what the end of the window does
-                throw new CancellationException();
-            }
-
-            @Override
-            public boolean cancelled() {
-                return true;
-            }
-        };
+        Progress closedMeanwhile = cancelledAfter(image::flush); // what the end of the window does
         assertThatThrownBy(() -> TrackCommand.track(image, request(), closedMeanwhile))
                 .isInstanceOf(CancellationException.class);
         assertThat(image.getStack().getPixels(9)).isNotNull();
@@ -93,6 +71,22 @@ class TrackCommandTest {
             assertThat(inAnotherThread(image::lockSilently)).isTrue();
         }
         assertThat(image.isLocked()).isTrue();
+    }
+
+    /** Of a run that is cancelled when it first reports, once something has happened. */
+    private static Progress cancelledAfter(Runnable event) {
+        return new Progress() {
+            @Override
+            public void report(String stage, double fraction, OptionalDouble secondsLeft, String message) {
+                event.run();
+                throw new CancellationException();
+            }
+
+            @Override
+            public boolean cancelled() {
+                return true;
+            }
+        };
     }
 
     private TrackRequest request() {
