@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float64
@@ -55,76 +55,118 @@ def detect_film(
     """
     _check(film, settings)
     film = mended(film)
-    scale = model_scale(film, model, settings)
-    region, threads = settings.region, settings.threads
-    nets = Nets.of(model, settings)
-    stabilising = _at(report, Stage.STABILISING)
-    motion = measure_motion(scaled(film, scale), stabilise=settings.stabilise, report=stabilising, threads=threads)
-    if motion.unmeasured:
-        warn(motion.unmeasured)
     done, count = 0, film.frame_count
-    if motion.unlit:
-        warn(
-            f"{len(motion.unlit)} of {count} frames are far darker or brighter than the others and are not used; the "
-            f"first is number {min(motion.unlit) + 1} of the {count}."
-        )
 
     def alive() -> None:
         report(Stage.DETECTING, done, count)
 
-    view = View.of(
-        film,
-        scale,
-        motion,
-        model.card.features,
-        report=_at(report, Stage.BACKGROUND),
-        alive=alive,
-        threads=threads,
-    )
+    nets = Nets.of(model, settings)
+    view = _view(film, model, settings, report, alive, warn)
     if settings.cell_length_px is None:
-        view = fitting(view, nets, settings.pruner(model.card), alive, threads)
-        if view.scale < scale:
-            warn(
-                f"The cells of the film seem to be about {scale / view.scale:.0f} times as long as expected, since "
-                f"more are found at {view.scale / scale:g} of the usual scale, now used; give a cell length to choose."
-            )
-    if isinstance(film, FilledFilm):
-        margin = min(float(np.abs(view.motion.drift).max()), BLANK_MARGIN_PX)
-        region = _lit(film, region, margin / view.scale)
-
-    def found(by: Nets, i: int, on_grid: Detections) -> FrameDetections:
-        drift, pruner = view.motion.drift[i], settings.pruner(by.model.card, view.scale)
-        if i in view.motion.unlit:
-            on_grid = Detections.empty()  # what frames beside it show is not in it
-        candidates = to_film(on_grid, split_drift(drift)[1], view.factors)
-        kept, counts = prune(candidates, pruner, region)
-        drift_x, drift_y = drift / view.factors
-        weak = faint(candidates, kept, pruner, region)
-        return FrameDetections(i, kept, counts, float(drift_x), float(drift_y), weak)
-
+        view = _fitting(view, nets, settings, alive, warn)
     if settings.resting:
         warn(free_resting(view, nets, settings.pruner(model.card), alive))
         view = view.renewed()
+    listing = _Listing.of(view, settings)
     if model.crowds is not None:
-        for_crowds, middle = Nets.of(model.crowds, settings), view.scene.middle
-        seen = view.features.channels(middle)
-        area = (film.height * film.width if region is None else int(region.sum())) * view.scale**2
-        usual = found(nets, middle, nets.candidates(seen))
-        crowd = crowd_in(usual, lambda: found(for_crowds, middle, for_crowds.candidates(seen)), area)
+        for_crowds = Nets.of(model.crowds, settings)
+        crowd = _crowd(listing, nets, for_crowds)
         if crowd:
-            warn(
-                f"In frame {middle + 1} of {count} there are {crowd} bacteria, one for every {area / crowd:.0f} "
-                f"square pixels: model {model.card.crowds}, which is for crowds, takes over from {model.card.name} "
-                f"{model.card.version}."
-            )
+            warn(crowd)
             taken(model.crowds)
             nets = for_crowds
     frames = (view.features.channels(i) for i in range(count))
-    with ahead(nets.candidates, frames, threads) as candidates_of_frames:
+    with ahead(nets.candidates, frames, settings.threads) as candidates_of_frames:
         for i, on_grid in enumerate(candidates_of_frames):
             done = i + 1
             report(Stage.DETECTING, done, count)
-            yield found(nets, i, on_grid)
+            yield listing.of_frame(i, on_grid, nets.model)
+
+
+def _view(
+    film: Film,
+    model: Model,
+    settings: DetectionSettings,
+    report: Report,
+    alive: Callable[[], None],
+    warn: Callable[[str], None],
+) -> View:
+    """The film at the model's scale, stabilised, with its first background."""
+    scale, threads = model_scale(film, model, settings), settings.threads
+    stabilising, background = _at(report, Stage.STABILISING), _at(report, Stage.BACKGROUND)
+    motion = measure_motion(scaled(film, scale), stabilise=settings.stabilise, report=stabilising, threads=threads)
+    if motion.unmeasured:
+        warn(motion.unmeasured)
+    if motion.unlit:
+        count = film.frame_count
+        warn(
+            f"{len(motion.unlit)} of {count} frames are far darker or brighter than the others and are not used; the "
+            f"first is number {min(motion.unlit) + 1} of the {count}."
+        )
+    return View.of(film, scale, motion, model.card.features, report=background, alive=alive, threads=threads)
+
+
+def _fitting(
+    view: View, nets: Nets, settings: DetectionSettings, alive: Callable[[], None], warn: Callable[[str], None]
+) -> View:
+    """`view`, or a smaller one for cells that are longer than expected."""
+    fitted = fitting(view, nets, settings.pruner(nets.model.card), alive, settings.threads)
+    if fitted is not view:
+        warn(
+            f"The cells of the film seem to be about {view.scale / fitted.scale:.0f} times as long as expected, since "
+            f"more are found at {fitted.scale / view.scale:g} of the usual scale, now used; give a cell length to "
+            "choose."
+        )
+    return fitted
+
+
+@dataclass(frozen=True, slots=True)
+class _Listing:
+    """What is listed of the candidates that a model finds in the frames of a `view`; `region`: where they count."""
+
+    view: View
+    settings: DetectionSettings
+    region: Bool[np.ndarray, "h w"] | None
+
+    @classmethod
+    def of(cls, view: View, settings: DetectionSettings) -> _Listing:
+        region = settings.region
+        if isinstance(view.film, FilledFilm):
+            margin = min(float(np.abs(view.motion.drift).max()), BLANK_MARGIN_PX)
+            region = _lit(view.film, region, margin / view.scale)
+        return cls(view, settings, region)
+
+    def of_frame(self, index: int, on_grid: Detections, model: Model) -> FrameDetections:
+        """Of the candidates `on_grid` of frame `index`, aligned and scaled, those listed, in the film's coordinates."""
+        drift, factors = self.view.motion.drift[index], self.view.factors
+        if index in self.view.motion.unlit:
+            on_grid = Detections.empty()  # what frames beside it show is not in it
+        pruner = self.settings.pruner(model.card, self.view.scale)
+        candidates = to_film(on_grid, split_drift(drift)[1], factors)
+        kept, counts = prune(candidates, pruner, self.region)
+        drift_x, drift_y = drift / factors
+        weak = faint(candidates, kept, pruner, self.region)
+        return FrameDetections(index, kept, counts, float(drift_x), float(drift_y), weak)
+
+
+def _crowd(listing: _Listing, nets: Nets, for_crowds: Nets) -> str:
+    """What the user should know where the film is a crowd, told by its middle frame; empty where it is none."""
+    view, region, card = listing.view, listing.region, nets.model.card
+    middle = view.scene.middle
+    seen = view.features.channels(middle)
+
+    def found(by: Nets) -> FrameDetections:
+        return listing.of_frame(middle, by.candidates(seen), by.model)
+
+    area = (view.film.height * view.film.width if region is None else int(region.sum())) * view.scale**2
+    crowd = crowd_in(found(nets), lambda: found(for_crowds), area)
+    if not crowd:
+        return ""
+    return (
+        f"In frame {middle + 1} of {view.film.frame_count} there are {crowd} bacteria, one for every "
+        f"{area / crowd:.0f} square pixels: model {card.crowds}, which is for crowds, takes over from {card.name} "
+        f"{card.version}."
+    )
 
 
 def mended(film: Film) -> Film:
