@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float64
 
 from memtrack.background import split_drift
+from memtrack.bands import without_bands
 from memtrack.blanks import FilledFilm, without_blanks
 from memtrack.defects import without_defects
 from memtrack.detections import Detections, FrameDetections
@@ -21,10 +22,10 @@ from memtrack.models import Model
 from memtrack.nets import Nets
 from memtrack.progress import Report, Stage
 from memtrack.pruning import faint, prune
-from memtrack.resampling import scaled
+from memtrack.resampling import factors_of, scaled
 from memtrack.scale import model_scale
 from memtrack.settings import DetectionSettings
-from memtrack.stabilisation import measure_motion
+from memtrack.stabilisation import LEAST_EDGE_PX, measure_motion
 from memtrack.view import View
 
 BLANK_MARGIN_PX = 6.0
@@ -94,7 +95,10 @@ def _view(
     """The film at the model's scale, stabilised, with its first background."""
     scale, threads = model_scale(film, model, settings), settings.threads
     stabilising, background = _at(report, Stage.STABILISING), _at(report, Stage.BACKGROUND)
-    motion = measure_motion(scaled(film, scale), stabilise=settings.stabilise, report=stabilising, threads=threads)
+    # Where robots are large, frames at the model's scale would be too small to tell the drift of the stage.
+    measured = scaled(film, max(scale, min(1.0, 2 * LEAST_EDGE_PX / min(film.height, film.width))))
+    motion = measure_motion(measured, stabilise=settings.stabilise, report=stabilising, threads=threads)
+    motion = replace(motion, drift=motion.drift * factors_of(measured, scaled(film, scale)))
     if motion.unmeasured:
         warn(motion.unmeasured)
     if motion.unlit:
@@ -170,12 +174,12 @@ def _crowd(listing: _Listing, nets: Nets, for_crowds: Nets) -> str:
 
 
 def mended(film: Film) -> Film:
-    """`film` as every later step sees it: defective pixels replaced and blank parts filled.
+    """`film` as every later step sees it: defective pixels replaced, rolling bands taken out and blank parts filled.
 
     A user's films are mended in training, too; simulated ones, captions and all, are learnt from as they are. The same
-    object where there is nothing to mend. Reads up to 24 frames twice.
+    object where there is nothing to mend. Reads up to 36 frames twice.
     """
-    return without_blanks(without_defects(film))
+    return without_blanks(without_bands(without_defects(film)))
 
 
 def _lit(film: FilledFilm, wanted: Bool[np.ndarray, "h w"] | None, margin_px: float) -> Bool[np.ndarray, "h w"]:

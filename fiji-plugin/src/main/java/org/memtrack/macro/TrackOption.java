@@ -61,7 +61,7 @@ public enum TrackOption {
             "Cell length (px)",
             Kind.NUMBER,
             "",
-            "length of a cell as it looks in the film, 1 to 200 pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is; much longer ones are recognised"),
+            "length of a cell as it looks in the film, 1 to 200 pixels; by it the film is brought to the model's scale; if left out, cells are taken to be 2 um long, or without a pixel size the film is used as it is; much longer ones are recognised; the dialog begins with that of a straight line that is selected"),
     STABILISE("stabilise", "Undo drift of the stage", Kind.SWITCH, "true", "measure and undo the drift of the stage"),
     RESTING(
             "resting",

@@ -24,6 +24,7 @@ import org.memtrack.detection.DetectorException;
 import org.memtrack.macro.TrackOption;
 import org.memtrack.macro.TrackRequest;
 import org.memtrack.video.ImageFilm;
+import org.memtrack.video.Regions;
 
 /** Asks for the options of "MEMTrack Track"; the last answers are offered again, in the dialog only. */
 final class TrackDialog {
@@ -42,6 +43,7 @@ final class TrackDialog {
         Map<TrackOption, String> values = RememberedOptions.of(image);
         Map<TrackOption, String> ofTheImage = ofTheImage(image);
         values.putAll(ofTheImage);
+        values.put(TrackOption.CELL_LENGTH, text(Regions.lineLength(image)));
         if (!askForAxis(image, values)) {
             return Optional.empty();
         }
@@ -134,10 +136,12 @@ final class TrackDialog {
 
     /** By what the film is brought to the model's scale. */
     static String aboutScale(Map<TrackOption, String> values) {
-        return values.get(TrackOption.PIXEL_SIZE).isEmpty()
-                ? "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length of a cell."
-                        + " With neither the film is used as it is. Much longer cells are recognised."
-                : "Cells are taken to be 2 um long, unless you give the length of one; much longer ones are recognised.";
+        boolean sizeKnown = !values.get(TrackOption.PIXEL_SIZE).isEmpty();
+        return (sizeKnown
+                        ? "Cells are taken to be 2 um long, unless you give the length of one; much longer ones are recognised."
+                        : "The film does not say its pixel size: give it, and cells are taken to be 2 um long, or give the length"
+                                + " of a cell. With neither the film is used as it is. Much longer cells are recognised.")
+                + " A straight line drawn along a cell before this command fills in its length.";
     }
 
     private static String help(List<TrackOption> shown) {

@@ -2,6 +2,7 @@
 package org.memtrack.video;
 
 import ij.ImagePlus;
+import ij.gui.Line;
 import ij.gui.Roi;
 import ij.io.RoiEncoder;
 import java.awt.Point;
@@ -12,9 +13,10 @@ import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;
 import java.util.Optional;
+import java.util.OptionalDouble;
 import org.memtrack.detection.DetectorException;
 
-/** The region the user has selected in an image. */
+/** What the user has selected in an image: a region to look in, or a line along a cell, which tells its length. */
 public final class Regions {
     /** Bytes of a selection that are noted; one that was made from a mask may have far more. */
     private static final int MOST_BYTES = 1 << 16;
@@ -22,13 +24,13 @@ public final class Regions {
     private Regions() {}
 
     /**
-     * The selection of an image as a mask; empty when nothing is selected.
+     * The selection of an image as a mask; empty when nothing is selected, or a straight line.
      *
      * @throws DetectorException when the selection has no area or lies outside the image
      */
     public static Optional<RegionMask> of(ImagePlus image) {
         Roi roi = image.getRoi();
-        if (roi == null) {
+        if (roi == null || roi instanceof Line) {
             return Optional.empty();
         }
         if (!roi.isArea()) {
@@ -56,8 +58,13 @@ public final class Regions {
         return Optional.of(new RegionMask(width, height, inside));
     }
 
+    /** Length in pixels of the straight line that is selected in an image; empty where none is. */
+    public static OptionalDouble lineLength(ImagePlus image) {
+        return image.getRoi() instanceof Line line ? OptionalDouble.of(line.getRawLength()) : OptionalDouble.empty();
+    }
+
     /**
-     * The selection of an image as ImageJ can rebuild it; empty when nothing is selected.
+     * The region of an image as ImageJ can rebuild it; empty when none is selected.
      *
      * @return kind, x, y, width and height of the bounds in pixels, and roi: ImageJ's .roi file in Base64, left out where it
      *     is large
@@ -65,7 +72,7 @@ public final class Regions {
     public static Map<String, Object> describe(ImagePlus image) {
         Map<String, Object> values = new LinkedHashMap<>();
         Roi roi = image.getRoi();
-        if (roi != null) {
+        if (roi != null && roi.isArea()) {
             Rectangle bounds = roi.getBounds();
             values.put("kind", roi.getTypeAsString());
             values.put("x", bounds.x);

@@ -74,8 +74,17 @@ class RegionsTest {
     }
 
     @Test
-    void aLineOrASelectionOutsideIsRefused() {
-        image.setRoi(new Line(1, 1, 8, 8));
+    void aStraightLineTellsALengthAndIsNoRegion() {
+        assertThat(Regions.lineLength(image)).isEmpty();
+        image.setRoi(new Line(1, 1, 4, 5));
+        assertThat(Regions.lineLength(image)).hasValue(5);
+        assertThat(Regions.of(image)).isEmpty();
+        assertThat(Regions.describe(image)).isEmpty();
+    }
+
+    @Test
+    void aCrookedLineOrASelectionOutsideIsRefused() {
+        image.setRoi(new PolygonRoi(new float[] {1, 8, 8}, new float[] {1, 8, 1}, Roi.POLYLINE));
         assertThatThrownBy(() -> Regions.of(image))
                 .isInstanceOf(DetectorException.class)
                 .hasMessageContaining("no area");
