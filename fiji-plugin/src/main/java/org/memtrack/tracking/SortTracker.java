@@ -70,21 +70,22 @@ public final class SortTracker {
                 dropped++;
             }
         }
+        if (again) {
+            List<List<TrackPoint>> accounted = cells.stream().map(scene::inFilm).toList();
+            List<FrameDetections> rest = SecondLook.unaccounted(frames, accounted);
+            for (List<TrackPoint> found :
+                    joined(rest, scene, done -> progress.accept(share + share * done), cancelled)) {
+                if (SecondLook.isCell(found, settings.filter().minimumScore())
+                        && settings.filter().isLong(found)) {
+                    cells.add(whole(found));
+                }
+            }
+        }
         if (ours && settings.association() == Association.MOTION) {
             cells = Twins.joined(cells);
         }
         List<List<TrackPoint>> kept =
                 new ArrayList<>(cells.stream().map(scene::inFilm).toList());
-        if (again) {
-            List<FrameDetections> rest = SecondLook.unaccounted(frames, kept);
-            for (List<TrackPoint> found :
-                    joined(rest, scene, done -> progress.accept(share + share * done), cancelled)) {
-                if (SecondLook.isCell(found, settings.filter().minimumScore())
-                        && settings.filter().isLong(found)) {
-                    kept.add(scene.inFilm(whole(found)));
-                }
-            }
-        }
         kept.sort(Comparator.comparingInt(points -> points.get(0).frame()));
         List<Track> tracks = new ArrayList<>();
         for (List<TrackPoint> points : kept) {

@@ -9,6 +9,7 @@ import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
@@ -66,20 +67,25 @@ class TwinsTest {
         assertThat(Twins.joined(List.of(one, other))).as(reason).containsExactly(one, other);
     }
 
-    @Test
-    void aSwimmerWhoseBoxesAreFoundAtBothEndsInTurnsMakesOneTrack() {
-        List<FrameDetections> film = IntStream.range(0, FRAMES)
-                .mapToObj(frame -> new FrameDetections(
-                        frame,
-                        IntStream.range(0, 2)
-                                .filter(end -> frame % 10 == 0 || (frame / 3 + end) % 2 == 0)
-                                .mapToObj(end -> new Detection(Box.around(100, 200 + 9 * end, 30, 30), 0.9, Level.HIGH))
-                                .toList()))
+    @ParameterizedTest(name = "faint: {0}")
+    @ValueSource(booleans = {false, true})
+    void aSwimmerWhoseBoxesAreFoundAtBothEndsInTurnsMakesOneTrack(boolean faint) {
+        List<FrameDetections> film = IntStream.range(0, 2 * FRAMES)
+                .mapToObj(frame -> {
+                    List<Detection> boxes = IntStream.range(0, 2)
+                            .filter(end -> frame % 10 == 0 || (frame / 3 + end) % 2 == 0)
+                            .mapToObj(end -> new Detection(
+                                    Box.around(100 + 0.3 * frame, 200 + 9 * end, 30, 30),
+                                    faint ? 0.4 : 0.9,
+                                    Level.HIGH))
+                            .toList();
+                    return new FrameDetections(frame, faint ? List.of() : boxes, 0, 0, faint ? boxes : List.of());
+                })
                 .toList();
 
         List<Track> tracks = new SortTracker(SortSettings.WATER, new Field(660, 492)).track(film);
 
         assertThat(tracks).hasSize(1);
-        assertThat(tracks.get(0).points()).hasSize(FRAMES).noneMatch(TrackPoint::interpolated);
+        assertThat(tracks.get(0).points()).hasSize(2 * FRAMES).noneMatch(TrackPoint::interpolated);
     }
 }
