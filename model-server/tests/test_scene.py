@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,10 +9,11 @@ from hypothesis import strategies as st
 from memtrack.background import temporal_background
 from memtrack.channels import signed
 from memtrack.errors import CancelledError
-from memtrack.film import ArrayFilm, Calibration
+from memtrack.film import ArrayFilm
 from memtrack.motion import FeatureSpec, FilmFeatures
-from memtrack.scene import Scene, Windows
+from memtrack.scene import Scene
 from memtrack.stabilisation import FilmMotion
+from memtrack.windows import Shots, Windows
 
 
 def quiet(done: int, total: int) -> None:
@@ -42,8 +45,7 @@ def exchanged(count: int, height: int = 24, width: int = 32) -> np.ndarray:
     ],
 )
 def test_a_window_is_900_frames_or_15_seconds(frames: int, interval: float | None, length: int, count: int) -> None:
-    film = ArrayFilm(np.zeros((frames, 1, 1), np.uint8), Calibration(None, interval))
-    assert Windows.of(film) == Windows(frames, length, count)
+    assert Windows.of(frames, interval) == Windows(frames, length, count)
 
 
 @given(st.integers(10, 60), st.integers(1, 400))
@@ -133,3 +135,26 @@ def test_a_film_nobody_wants_any_more_is_left_in_the_middle_of_a_background() ->
     assert scene.median(449).shape == (24, 32)
     with pytest.raises(CancelledError):
         scene.median(460)
+
+
+def test_each_shot_of_a_film_that_is_cut_has_a_background_of_its_own() -> None:
+    film, motion = ArrayFilm(exchanged(80)), replace(still(80), cuts=(40,))
+    scene = Scene(film, motion, report=quiet)
+    for frames in (range(40), range(40, 80)):
+        own = temporal_background(film, motion, report=quiet, frames=frames)
+        for index in (frames[0], frames[-1]):
+            np.testing.assert_array_equal(scene.median(index), own.median)
+
+
+@given(st.integers(1, 2000), st.lists(st.integers(1, 5000), max_size=3, unique=True).map(sorted))
+@settings(deadline=None, max_examples=30)
+def test_windows_of_shots_are_numbered_through_and_hold_the_frames_they_share(last: int, cuts: list[int]) -> None:
+    count = last + (cuts[-1] if cuts else 0)
+    shots = Shots.of(ArrayFilm(np.zeros((count, 1, 1), np.uint8)), tuple(cuts))
+    for frame in range(0, count, 97):
+        near = shots.near(frame)
+        assert sum(share for _, share in near) == pytest.approx(1)
+        for number, _ in near:
+            window = shots.window(number)
+            assert frame in window
+            assert not any(window.start < cut < window.stop for cut in cuts)

@@ -1,15 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The still scene a frame is compared with, which may change in a long film.
-
-A film has one background as long as it fits into one window. A longer one, whose fibres remodel and whose focus drifts,
-has one for each of overlapping windows, and fades from one to the next. A bacterium that rests for more than half of a
-window is part of its background and leaves a ghost when it goes, if it is not told (`memtrack.leavers`), so windows are
-long and none is cut short at the film's ends.
-"""
+"""The still scene a frame is compared with, which may change in a long film, or where it is cut."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -26,47 +19,8 @@ from memtrack.resting import Looks, without_resting
 from memtrack.spots import Spots
 from memtrack.stabilisation import FilmMotion
 from memtrack.tethered import without_tethered
+from memtrack.windows import Shots
 from memtrack.wobble import Slopes
-
-WINDOW_FRAMES = 900
-WINDOW_SECONDS = 15.0
-"""A window is no shorter than either, so that bacteria that rest for some seconds are not lost at any frame rate."""
-
-
-@dataclass(frozen=True, slots=True)
-class Windows:
-    """`count` windows of `length` frames, spread evenly over the `frames` of a film; each holds half of the next one or
-    more."""
-
-    frames: int
-    length: int
-    count: int
-
-    @classmethod
-    def of(cls, film: Film) -> Windows:
-        """As few as overlap by half."""
-        interval = film.calibration.frame_interval_seconds
-        length = max(WINDOW_FRAMES, round(WINDOW_SECONDS / interval) if interval else 0)
-        if film.frame_count <= length:
-            return cls(film.frame_count, film.frame_count, 1)
-        return cls(film.frame_count, length, math.ceil(2 * film.frame_count / length) - 1)
-
-    def window(self, number: int) -> range:
-        """Its frames; among them are all that `near` gives it a share of."""
-        first = round(number * self._step)
-        return range(first, first + self.length)
-
-    def near(self, frame: int) -> list[tuple[int, float]]:
-        """The one or two windows whose middles are nearest to a frame, with the share of each; these add up to 1."""
-        place = (frame - (self.length - 1) / 2) / self._step if self.count > 1 else 0.0
-        place = min(max(place, 0.0), self.count - 1.0)
-        first = math.floor(place)
-        share = place - first
-        return [(first, 1 - share), (first + 1, share)] if share else [(first, 1.0)]
-
-    @property
-    def _step(self) -> float:
-        return (self.frames - self.length) / max(1, self.count - 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +85,7 @@ class Scene:
         threads: int = 1,
     ) -> None:
         self.film, self.motion, self._threads = film, motion, threads
-        self._windows = Windows.of(film)
+        self._shots = Shots.of(film, motion.cuts)
         self._whole_numbers = film.frame(0).dtype.kind == "u"
         self._looks: Looks | None = None
         self._stills = {0: self._made(0, report)}
@@ -150,7 +104,7 @@ class Scene:
     @property
     def middle(self) -> int:
         """The frame in the middle of the first background's."""
-        return self._windows.length // 2
+        return len(self._shots.window(0)) // 2
 
     def place(self, index: int) -> tuple[int, int]:
         """Whole pixels (x, y) the scene stands from its place in frame 0."""
@@ -194,14 +148,14 @@ class Scene:
         return self._value(index, lambda still: still.level)
 
     def _nearest(self, index: int) -> int:
-        return max(self._windows.near(index), key=lambda near: near[1])[0]
+        return max(self._shots.near(index), key=lambda near: near[1])[0]
 
     def _value(self, index: int, of: Callable[[Still], float]) -> float:
-        return sum(share * of(self._still(number)) for number, share in self._windows.near(index))
+        return sum(share * of(self._still(number)) for number, share in self._shots.near(index))
 
     def _faded(self, index: int, of: Callable[[Still], np.ndarray]) -> np.ndarray:
         place, h, w = self.place(index), self.film.height, self.film.width
-        near = [(self._still(number), share) for number, share in self._windows.near(index)]
+        near = [(self._still(number), share) for number, share in self._shots.near(index)]
         images = [of(still)[still.background.window(place, h, w)] for still, _ in near]
         if len(near) == 1:
             return images[0]
@@ -216,7 +170,7 @@ class Scene:
         return self._stills[number]
 
     def _made(self, number: int, report: Progress) -> Still:
-        window, reached = self._windows.window(number), (1, 1)
+        window, reached = self._shots.window(number), (1, 1)
 
         def read(done: int, total: int) -> None:
             nonlocal reached

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import cv2
 import numpy as np
 from jaxtyping import Float32, Float64, Shaped
 
+from memtrack.cuts import SceneChanges, ScenePart
 from memtrack.errors import FilmError
 from memtrack.film import Film
 from memtrack.lookahead import ahead
@@ -58,14 +59,16 @@ class FilmMotion:
     that brings the frame to the film's usual brightness. `ceiling`: the highest grey level, after that correction, that
     all frames can show; when the lamp grows brighter, a camera at its limit does not, and the scene seems to darken.
     `pattern`: grey levels that the camera adds to every frame, None for none. `unlit`: frames so dark or so bright that
-    they hold nothing to find, as while the lamp is off. `unmeasured`: why no drift was measured though it was wanted, a
-    sentence for the user; empty where it was, or was not wanted."""
+    they hold nothing to find, as while the lamp is off. `cuts`: first frames of another scene in the same place
+    (`memtrack.cuts`). `unmeasured`: why no drift was measured though it was wanted, a sentence for the user; empty
+    where it was, or was not wanted."""
 
     drift: Float64[np.ndarray, "frame 2"]
     gain: Float64[np.ndarray, " frame"]
     ceiling: float = math.inf
     pattern: Image | None = None
     unlit: frozenset[int] = frozenset()
+    cuts: tuple[int, ...] = ()
     unmeasured: str = ""
 
     def sampled(self, frames: range, most: int) -> list[int]:
@@ -116,14 +119,10 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
             if small is not None:
                 drift[i] = chain.add(small) * 4
             report(i + 1, passes * count)
-    if shrinks:
-        refined = _refine(film, drift, report, threads)
-        drift, unmeasured = (np.zeros_like(drift), NO_SHARED_SCENE) if refined is None else (refined, "")
     gain, unlit = _gains(means, lowest)
     # A few flashes do not lower the ceiling of the whole film.
-    return FilmMotion(
-        drift - drift[0], gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit, unmeasured=unmeasured
-    )
+    motion = FilmMotion(drift, gain, brightest * float(np.quantile(gain, 0.05)), unlit=unlit, unmeasured=unmeasured)
+    return _refined(film, motion, report, threads) if shrinks else motion
 
 
 def _summary(
@@ -148,11 +147,10 @@ def _gains(means: Float64[np.ndarray, " frame"], lowest: float) -> tuple[Float64
     return gain, frozenset(np.flatnonzero(~lit).tolist())
 
 
-def _refine(
-    film: Film, drift: Float64[np.ndarray, "n 2"], report: Progress, threads: int
-) -> Float64[np.ndarray, "n 2"] | None:
-    """The drift measured anew, at half the size; None where the frames share no scene to tell it by."""
-    count = film.frame_count
+def _refined(film: Film, motion: FilmMotion, report: Progress, threads: int) -> FilmMotion:
+    """With the drift measured anew, at half the size, and the cuts of the scene; with none of both where the frames
+    share no scene to tell them by."""
+    count, drift = film.frame_count, motion.drift
     chosen = np.unique(np.linspace(0, count - 1, REFERENCE_FRAMES).astype(int))
     # The reference covers the field of the middle of the drift, where most frames overlap it.
     origin = np.median(drift, axis=0)
@@ -161,26 +159,33 @@ def _refine(
     halves = [_median_where_known(np.stack(half)) for half in (aligned[::2], aligned[1::2])]
     repeated, everywhere = likeness(Reference(halves[0]), halves[1], np.zeros(2)), typical_likeness(*halves)
 
-    def place(item: tuple[int, Frame]) -> tuple[Float64[np.ndarray, " 2"], float, float]:
+    middle, changes = ScenePart.of(film, drift), SceneChanges()
+
+    def place(item: tuple[int, Frame]) -> tuple[Float64[np.ndarray, " 2"], float, float, np.ndarray]:
         i, frame = item
-        image = _band_pass(frame.astype(np.float32), 2)
+        values = frame.astype(np.float32)
+        image = _band_pass(values, 2)
         shift, error = register(reference, image, (drift[i] - origin) / 2, steps=3)
-        return 2 * shift + origin, error, likeness(reference, image, shift)
+        stands = 2 * shift + origin
+        part = middle.seen_in(values, stands) * np.float32(motion.gain[i])
+        return stands, error, likeness(reference, image, shift), part
 
     refined, errors, alike = drift.copy(), np.zeros(count), np.zeros(count)
     frames = ((i, film.frame(i)) for i in range(count))
     with ahead(place, frames, threads) as places:
-        for i, (refined[i], errors[i], alike[i]) in enumerate(places):
+        for i, (refined[i], errors[i], alike[i], part) in enumerate(places):
+            if i not in motion.unlit:
+                changes.add(i, part)
             report(count + i + 1, 2 * count)
     shared = any(np.median(alike) >= least and repeated >= enough for least, enough in SHARED_SCENE)
     if np.median(errors) * 2 > AGREEMENT_PX or everywhere < SCENE_EVERYWHERE or not shared:
-        return None
+        return replace(motion, drift=np.zeros_like(drift), unmeasured=NO_SHARED_SCENE)
     lost = (errors * 2 > 4 * AGREEMENT_PX) | (alike < LOST_LIKENESS * np.median(alike))
     if lost.any() and not lost.all():
         good = np.flatnonzero(~lost)
         for axis in range(2):
             refined[lost, axis] = np.interp(np.flatnonzero(lost), good, refined[good, axis])
-    return refined
+    return replace(motion, drift=refined - refined[0], cuts=changes.cuts(count))
 
 
 class _Chain:
