@@ -22,10 +22,10 @@ from memtrack.models import Model
 from memtrack.nets import Nets
 from memtrack.progress import Report, Stage
 from memtrack.pruning import faint, prune
-from memtrack.resampling import factors_of, scaled
+from memtrack.resampling import scaled
 from memtrack.scale import model_scale
 from memtrack.settings import DetectionSettings
-from memtrack.stabilisation import LEAST_EDGE_PX, measure_motion
+from memtrack.stabilisation import measure_motion
 from memtrack.view import View
 
 BLANK_MARGIN_PX = 6.0
@@ -95,10 +95,7 @@ def _view(
     """The film at the model's scale, stabilised, with its first background."""
     scale, threads = model_scale(film, model, settings), settings.threads
     stabilising, background = _at(report, Stage.STABILISING), _at(report, Stage.BACKGROUND)
-    # Where robots are large, frames at the model's scale would be too small to tell the drift of the stage.
-    measured = scaled(film, max(scale, min(1.0, 2 * LEAST_EDGE_PX / min(film.height, film.width))))
-    motion = measure_motion(measured, stabilise=settings.stabilise, report=stabilising, threads=threads)
-    motion = replace(motion, drift=motion.drift * factors_of(measured, scaled(film, scale)))
+    motion = measure_motion(scaled(film, scale), stabilise=settings.stabilise, report=stabilising, threads=threads)
     if motion.unmeasured:
         warn(motion.unmeasured)
     if motion.unlit:

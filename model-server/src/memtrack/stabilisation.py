@@ -100,8 +100,8 @@ def measure_motion(film: Film, *, stabilise: bool, report: Progress, threads: in
     if shrinks and min(film.height, film.width) < LEAST_EDGE_PX:
         shrinks = False
         unmeasured = (
-            f"With {film.width} x {film.height} pixels the frames are too small to tell a drift of the stage, so none "
-            f"was undone; it takes {LEAST_EDGE_PX} x {LEAST_EDGE_PX}."
+            f"At the model's scale the frames have {film.width} x {film.height} pixels; a drift of the stage is undone "
+            f"from {LEAST_EDGE_PX} x {LEAST_EDGE_PX} pixels on, so none was."
         )
     passes = 2 if shrinks else 1
     means, lowest, brightest = np.empty(count), math.inf, -math.inf
