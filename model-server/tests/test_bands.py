@@ -83,6 +83,20 @@ def test_other_films_are_left_alone(frames: np.ndarray) -> None:
     assert without_bands(whole) is whole
 
 
+def test_films_of_signed_or_hardly_any_light_are_left_alone() -> None:
+    for level in (0.0, 5.0):
+        whole = ArrayFilm((banded(film(), 0.03, 1) - film() + level).astype(np.float32))
+        assert without_bands(whole) is whole
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_a_film_with_values_that_are_not_finite_is_left_to_those_who_refuse_it(bad: float) -> None:
+    frames = film().astype(np.float32)
+    frames[:, 9, 9] = bad
+    whole = ArrayFilm(frames)
+    assert without_bands(whole) is whole
+
+
 def test_a_wall_that_trembles_is_no_band() -> None:
     frames = film()
     for i, frame in enumerate(frames):

@@ -7,6 +7,7 @@ They change each pixel by more than its noise, in which faint bacteria then drow
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import cycle, starmap
 
 import cv2
 import numpy as np
@@ -58,15 +59,17 @@ def without_bands(film: Film) -> Film:
     if min(film.height, film.width) < 16 * SMOOTH_ROWS or film.frame_count < 2 * len(GAPS):
         return film
     chosen = np.unique(np.linspace(0, film.frame_count - 1 - max(GAPS), SAMPLES).astype(int)).tolist()
-    pairs = [(film.frame(i), film.frame(i + GAPS[k % len(GAPS)])) for k, i in enumerate(chosen)]
-    strengths, noises = zip(*(_strengths(*pair) for pair in pairs), strict=True)
+    pairs = ((film.frame(i), film.frame(i + gap)) for i, gap in zip(chosen, cycle(GAPS), strict=False))
+    strengths, noises = zip(*starmap(_strengths, pairs), strict=True)
     typical = np.median(strengths, axis=0)
     axis = int(typical.argmax())
     if not typical[axis] >= NOTABLE:
         return film
     frames = np.stack([film.frame(i) for i in chosen])
-    usual = np.median(frames, axis=0).astype(np.float32)
-    return EvenFilm(film, axis, usual, float(np.median(noises)), np.ptp(frames, axis=0) > 0)
+    usual, noise = np.median(frames, axis=0).astype(np.float32), float(np.median(noises))
+    if usual.mean(axis=axis).min() <= OUTLYING * noise:  # dark or signed values are no light that a lamp multiplies
+        return film
+    return EvenFilm(film, axis, usual, noise, np.ptp(frames, axis=0) > 0)
 
 
 def _strengths(first: Frame, second: Frame) -> tuple[tuple[float, float], float]:
