@@ -46,7 +46,7 @@ class FailuresTest {
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | python=/no/such/python | There is no Python
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | server=127.0.0.1:1     | cannot be reached
                     newImage("g", "8-bit", 64, 48, 1, 1, 8);          | server=nowhere         | host:port
-                    newImage("g", "8-bit", 64, 48, 1, 1, 8); makeLine(1, 1, 9, 9); | ''        | no area
+                    newImage("g", "8-bit", 64, 48, 1, 1, 8); makeLine(1, 1, 9, 9, 9, 1); | ''  | no area
                     """)
     void badInputIsOneSentence(String open, String options, String expected) throws Exception {
         Outcome outcome =
