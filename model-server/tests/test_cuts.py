@@ -49,11 +49,20 @@ def test_frames_without_light_are_no_cut() -> None:
 
 
 def test_what_does_not_show_all_of_the_part_is_passed_over() -> None:
-    part = np.zeros((60, 60), np.float32)
-    changes = SceneChanges()
-    for i in range(20):
+    rng, changes = np.random.default_rng(0), SceneChanges()
+    scenes = rng.normal(100, 10, (2, 60, 60)).astype(np.float32)
+    for i in range(80):
+        part = scenes[i // 40] + rng.normal(0, 1, (60, 60)).astype(np.float32)
         changes.add(i, part[: 60 - (i % 5 == 3)])
-    assert changes.cuts(20) == ()
+    assert changes.cuts(80) == (40,)
+
+
+@pytest.mark.parametrize("shown", [range(80), range(30, 40)], ids=["all", "ten"])
+def test_where_nothing_changes_or_too_little_is_seen_nothing_is_cut(shown: range) -> None:
+    changes = SceneChanges()
+    for i in shown:
+        changes.add(i, np.zeros((60, 60), np.float32))
+    assert changes.cuts(80) == ()
 
 
 def test_a_part_of_the_scene_is_the_same_wherever_it_stands() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from memtrack.background import temporal_background
 from memtrack.channels import signed
 from memtrack.errors import CancelledError
-from memtrack.film import ArrayFilm
+from memtrack.film import ArrayFilm, Calibration
 from memtrack.motion import FeatureSpec, FilmFeatures
 from memtrack.scene import Scene
 from memtrack.stabilisation import FilmMotion
@@ -45,7 +45,8 @@ def exchanged(count: int, height: int = 24, width: int = 32) -> np.ndarray:
     ],
 )
 def test_a_window_is_900_frames_or_15_seconds(frames: int, interval: float | None, length: int, count: int) -> None:
-    assert Windows.of(frames, interval) == Windows(frames, length, count)
+    film = ArrayFilm(np.zeros((frames, 1, 1), np.uint8), Calibration(None, interval))
+    assert Shots.of(film, ()).windows == (Windows(frames, length, count),)
 
 
 @given(st.integers(10, 60), st.integers(1, 400))

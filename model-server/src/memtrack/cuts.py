@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 
@@ -88,9 +89,9 @@ class SceneChanges:
             if changes[k] < near.max() or frame - cuts[-1] < LEAST_FRAMES or frame_count - frame < LEAST_FRAMES:
                 continue
             beside = [*changes[max(0, k - FAR) : max(0, k - FAR // 2)], *changes[k + FAR // 2 + 1 : k + FAR + 1]]
-            there = float(np.median(beside))
-            if changes[k] < CUT * there or changes[k] < CUT_OF_ALL * np.median(changes):
-                continue
-            if changes[k] ** 2 - there**2 >= (TEXTURE * self._textures[k]) ** 2:
+            there = float(np.median(beside)) if beside else math.inf
+            # Strictly more: where nothing at all changes, as in front of pure black, nothing is cut.
+            jumps = changes[k] > CUT * there and changes[k] > CUT_OF_ALL * np.median(changes)
+            if jumps and changes[k] ** 2 - there**2 >= (TEXTURE * self._textures[k]) ** 2:
                 cuts.append(frame)
         return tuple(cuts[1:])
