@@ -128,6 +128,25 @@ def test_contrasts_tell_bright_bacteria_from_dark_ones(model: Model) -> None:
     assert np.mean(signs) > 0.95
 
 
+def test_the_error_of_a_place_is_told_with_it(model: Model) -> None:
+    made = simulate(replace(GEL, drift_per_frame=(0.12, -0.08)), 3)
+    told, off = [], []
+    for frame in run(made.film, model):
+        centres = frame.detections.centres
+        assert frame.detections.errors is not None
+        for row in np.flatnonzero((made.truth.frames == frame.frame) & ~made.truth.ignored):
+            away = centres - (made.truth.x[row], made.truth.y[row])
+            if len(away) and np.hypot(*away.T).min() < 4:
+                nearest = np.hypot(*away.T).argmin()
+                told.append(frame.detections.errors[nearest])
+                off.append(np.sqrt(np.mean(away[nearest] ** 2)))
+    order = np.argsort(told)
+    sure, unsure = (np.sqrt(np.mean(np.array(off)[rows] ** 2)) for rows in np.array_split(order, 2))
+    assert len(told) > 200
+    assert sure < 0.6 * unsure
+    assert 0.5 < np.sqrt(np.mean(np.square(told))) / np.sqrt(np.mean(np.square(off))) < 2
+
+
 def test_stabilisation_pays_and_can_be_turned_off(model: Model) -> None:
     moving = simulate(replace(GEL, drift_per_frame=(0.12, -0.08), jitter=0.2), 3)
     without, with_it = run(moving.film, model, stabilise=False), run(moving.film, model)

@@ -38,10 +38,10 @@ def test_tracks_are_written_to_mtrackj_as_the_plug_in_writes_them(tmp_path: Path
 
 
 def test_tracks_are_written_to_trackmate_as_the_plug_in_writes_them(tmp_path: Path) -> None:
-    """But for what the plug-in alone knows: level, contrast, the stage's drift, and what it measures of a track."""
+    """But for what the plug-in alone knows: level, contrast, error, the stage's drift, what it measures of a track."""
     film = FilmFile(Path("/films/film.tif"), 100, 80, 9)
     write_tracks(tmp_path / "film.xml", read_tracks(PLUGIN_FILES / "film.csv"), film=film)
-    alone = ("LEVEL", "CONTRAST", "DRIFT_X", "DRIFT_Y", "PEAK_DIFFUSIVITY", "MEAN_SPEED", "LAG_SPEED")
+    alone = ("LEVEL", "CONTRAST", "POSITION_ERROR", "DRIFT_X", "DRIFT_Y", "PEAK_DIFFUSIVITY", "MEAN_SPEED", "LAG_SPEED")
     ours, theirs = (list(parse_xml(f / "film.xml").getroot().iter()) for f in (tmp_path, PLUGIN_FILES))
     theirs = [e for e in theirs if e.get("feature", "").removeprefix("MEMTRACK_") not in alone]
     assert [e.tag for e in ours] == [e.tag for e in theirs]

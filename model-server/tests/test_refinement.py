@@ -8,7 +8,16 @@ from memtrack.boxes import square_boxes
 from memtrack.channels import NEUTRAL
 from memtrack.detections import Detections
 from memtrack.models import load_model
-from memtrack.refinement import DETECTOR_ERROR_PX, EDGE_PX, FURTHEST_PX, Crops, Estimates, crops_around, refined
+from memtrack.refinement import (
+    DETECTOR_ERROR_PX,
+    EDGE_PX,
+    FURTHEST_PX,
+    UNREFINED_ERROR_PX,
+    Crops,
+    Estimates,
+    crops_around,
+    refined,
+)
 
 
 class Saying:
@@ -72,6 +81,16 @@ def test_boxes_that_share_a_centre_are_one_crop_and_stay_together() -> None:
     moved = refined(boxes_at((20, 30), (50, 40), (20, 30)), np.zeros((1, 80, 100), np.uint8), Saying(answer))
     np.testing.assert_allclose(centres_of(moved), [[20.25, 29.5], [50.25, 39.5], [20.25, 29.5]], atol=1e-4)
     assert asked == [2]
+
+
+def test_each_box_has_the_error_that_the_refiner_expects() -> None:
+    found = boxes_at((20, 30), (50, 40), (20, 30), (70, 60), scores=[0.9, 0.9, 0.9, 0.1])
+    moved = refined(found, np.zeros((1, 80, 100), np.uint8), Saying([0.0, 0.0], np.log(0.25)))
+    assert moved.errors is not None
+    np.testing.assert_allclose(moved.errors, [0.25, 0.25, 0.25, UNREFINED_ERROR_PX], rtol=1e-6)
+    chosen = moved.select(np.array([3, 0]))
+    assert chosen.errors is not None
+    assert chosen.errors.tolist() == moved.errors[[3, 0]].tolist()
 
 
 def test_boxes_so_faint_that_nothing_was_learnt_of_them_stay() -> None:

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -20,5 +22,9 @@ def test_what_is_found_at_the_lower_right_of_a_scaled_film_lies_there_in_the_fil
     centre = np.array([[(image * places).sum() / image.sum() for places in (columns, rows)]])
     boxes = square_boxes(centre, 30 * factor).astype(np.float32)
     found = Detections(boxes, np.ones(1, np.float32), np.zeros(1, np.int8))
-    box = to_film(found, (0.0, 0.0), factors_of(film, scaled)).boxes[0]
+    found = replace(found, errors=np.full(1, 0.5, np.float32))
+    there = to_film(found, (0.0, 0.0), factors_of(film, scaled))
+    box = there.boxes[0]
+    assert there.errors is not None
+    np.testing.assert_allclose(there.errors, 0.5 / factor, rtol=0.05)
     np.testing.assert_allclose([(box[0] + box[2]) / 2, (box[1] + box[3]) / 2], [89.3, 52.6], atol=0.15)

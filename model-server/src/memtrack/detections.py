@@ -24,15 +24,17 @@ class Level(enum.IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Detections:
-    """Boxes with their scores, levels and contrasts (`memtrack.contrast`); row i of each array describes detection i.
+    """Boxes with their scores, levels, contrasts (`memtrack.contrast`) and errors; row i of each array tells of box i.
 
-    contrasts: None where they were not measured.
+    contrasts: None where they were not measured. errors: how far off each centre is to be expected along x or y, root
+    mean square, in pixels (`memtrack.refinement`); None where the model does not tell.
     """
 
     boxes: Float32[np.ndarray, "n 4"]
     scores: Float32[np.ndarray, " n"]
     levels: Int8[np.ndarray, " n"]
     contrasts: Float32[np.ndarray, " n"] | None = None
+    errors: Float32[np.ndarray, " n"] | None = None
 
     def __post_init__(self) -> None:
         n = len(self.boxes)
@@ -40,8 +42,10 @@ class Detections:
             raise ValueError(
                 f"boxes {self.boxes.shape}, scores {self.scores.shape} and levels {self.levels.shape} do not fit"
             )
-        if self.contrasts is not None and self.contrasts.shape != (n,):
-            raise ValueError(f"{n} boxes and contrasts {self.contrasts.shape} do not fit")
+        for name in ("contrasts", "errors"):
+            told = getattr(self, name)
+            if told is not None and told.shape != (n,):
+                raise ValueError(f"{n} boxes and {name} {told.shape} do not fit")
 
     def __len__(self) -> int:
         return len(self.boxes)
@@ -54,7 +58,8 @@ class Detections:
     def select(self, rows: np.ndarray) -> Detections:
         """The detections at `rows`, a boolean mask or an array of indices, in that order."""
         contrasts = None if self.contrasts is None else self.contrasts[rows]
-        return Detections(self.boxes[rows], self.scores[rows], self.levels[rows], contrasts)
+        errors = None if self.errors is None else self.errors[rows]
+        return Detections(self.boxes[rows], self.scores[rows], self.levels[rows], contrasts, errors)
 
     @staticmethod
     def empty() -> Detections:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from memtrack.detections import Detections, FilterCounts, FrameDetections, Level
 from memtrack.headers import FilmRequest
 from memtrack.libraries import library_versions
@@ -70,15 +72,23 @@ def frame(found: FrameDetections) -> pb.DetectFilmResponse:
 
 
 def _boxes(detections: Detections) -> list[pb.Detection]:
-    told = detections.contrasts
-    contrasts = [None] * len(detections) if told is None else told.tolist()
     rows = zip(
-        detections.boxes.tolist(), detections.scores.tolist(), detections.levels.tolist(), contrasts, strict=True
+        detections.boxes.tolist(),
+        detections.scores.tolist(),
+        (LEVELS[Level(level)] for level in detections.levels.tolist()),
+        _told(detections.contrasts, len(detections)),
+        _told(detections.errors, len(detections)),
+        strict=True,
     )
     return [
-        pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=LEVELS[Level(level)], contrast=contrast)
-        for (x0, y0, x1, y1), score, level, contrast in rows
+        pb.Detection(x_min=x0, y_min=y0, x_max=x1, y_max=y1, score=score, level=level, contrast=contrast, error=error)
+        for (x0, y0, x1, y1), score, level, contrast, error in rows
     ]
+
+
+def _told(column: np.ndarray | None, count: int) -> list[float | None]:
+    """A column that may be missing."""
+    return [None] * count if column is None else column.tolist()
 
 
 def summary(

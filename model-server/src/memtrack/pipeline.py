@@ -217,7 +217,8 @@ def to_film(found: Detections, rest: tuple[float, float], factors: Float64[np.nd
     """
     at_model_scale = found.boxes + np.array([*rest, *rest], np.float32)
     boxes = (at_model_scale + 0.5) / np.tile(factors, 2).astype(np.float32) - 0.5
-    return replace(found, boxes=boxes.astype(np.float32))
+    errors = None if found.errors is None else found.errors / np.float32(factors.mean())
+    return replace(found, boxes=boxes.astype(np.float32), errors=errors)
 
 
 def _at(report: Report, stage: Stage) -> Callable[[int, int], None]:

@@ -26,6 +26,8 @@ DETECTOR_ERROR_PX = 0.4
 """How far off the detector's centre is along x or y, in the mean of both estimates: 0.3 to 0.5 are as good."""
 LEAST_SCORE = 0.15
 """Fainter boxes are neither learnt from nor moved: most are of no bacterium, and each takes time."""
+UNREFINED_ERROR_PX = 2.5
+"""How far off along x or y the centre of a box is that is not moved, root mean square, in simulated films."""
 FURTHEST_PX = 4.0
 """A centre is not moved further along x or y: half the distance within which two boxes are of one bacterium."""
 
@@ -41,7 +43,8 @@ class Refiner(Protocol):
 
 
 def refined(found: Detections, channels: Features, refiner: Refiner) -> Detections:
-    """`found`, boxes moved to the mean of where detector and refiner see their centre, weighted by how exact they are.
+    """`found`, boxes moved to the mean of where detector and refiner see their centre, weighted by how exact they are,
+    with the error to expect of each.
 
     Boxes that share a centre stay together; where none of them is scored `LEAST_SCORE`, they stay where they are.
 
@@ -55,22 +58,27 @@ def refined(found: Detections, channels: Features, refiner: Refiner) -> Detectio
     best = np.zeros(len(centres), np.float32)
     np.maximum.at(best, owner, found.scores)
     moving = best >= LEAST_SCORE
-    if not moving.any():
-        return found
     change = np.zeros_like(centres, np.float64)
-    change[moving] = _change(centres[moving], channels, refiner)
-    return replace(found, boxes=(found.boxes + np.tile(change[owner], 2)).astype(np.float32))
+    errors = np.full(len(centres), UNREFINED_ERROR_PX, np.float32)
+    if moving.any():
+        change[moving], errors[moving] = _change(centres[moving], channels, refiner)
+    boxes = (found.boxes + np.tile(change[owner], 2)).astype(np.float32)
+    return replace(found, boxes=boxes, errors=errors[owner])
 
 
-def _change(centres: Float[np.ndarray, "n 2"], channels: Features, refiner: Refiner) -> Float64[np.ndarray, "n 2"]:
+def _change(
+    centres: Float[np.ndarray, "n 2"], channels: Features, refiner: Refiner
+) -> tuple[Float64[np.ndarray, "n 2"], Float64[np.ndarray, " n"]]:
+    """How far to move each centre, and the error to expect of it then: measured, the refiner's own is about right."""
     estimates = refiner.estimates(crops_around(channels, centres, EDGE_PX)).astype(np.float64)
     # Far off the refiner is worse than the detector, whose net sees more of the surroundings.
-    weight = 1 / (1 + np.exp(2 * estimates[:, 2:]) / DETECTOR_ERROR_PX**2)
+    errors = np.exp(estimates[:, 2])
+    weight = 1 / (1 + (errors[:, None] / DETECTOR_ERROR_PX) ** 2)
     change = weight * (np.rint(centres) + estimates[:, :2] - centres)
     height, width = channels[0].shape
     edge = np.array([width, height]) - 0.5
     inside: np.ndarray = (centres + change.clip(-FURTHEST_PX, FURTHEST_PX)).clip(-0.5, edge) - centres
-    return inside
+    return inside, errors
 
 
 def crops_around(channels: Features, centres: Float[np.ndarray, "n 2"], edge: int) -> Crops:

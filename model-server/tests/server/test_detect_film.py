@@ -26,9 +26,9 @@ LOW = pb.LevelThresholds(low=0.1, medium=0.1, high=0.1)
 
 
 def rows(found: Iterable[pb.Detection]) -> np.ndarray:
-    """Boxes, scores, levels (from 0) and contrasts."""
-    table = [[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1, d.contrast] for d in found]
-    return np.array(table).reshape(-1, 7)
+    """Boxes, scores, levels (from 0), contrasts and errors."""
+    table = [[d.x_min, d.y_min, d.x_max, d.y_max, d.score, d.level - 1, d.contrast, d.error] for d in found]
+    return np.array(table).reshape(-1, 8)
 
 
 @pytest.mark.parametrize("dtype", ["uint8", "uint16", "float32"])
@@ -43,7 +43,8 @@ def test_a_film_gets_the_detections_of_the_method_itself(server: RunningServer, 
     check_order(found, 12)
     for ours, theirs in zip(found.frame, expected, strict=True):
         for sent, made in ((ours.detections, theirs.detections), (ours.faint, theirs.faint)):
-            np.testing.assert_array_equal(rows(sent), np.c_[made.boxes, made.scores, made.levels, made.contrasts])
+            expect = np.c_[made.boxes, made.scores, made.levels, made.contrasts, made.errors]
+            np.testing.assert_array_equal(rows(sent), expect)
         assert (ours.drift_x, ours.drift_y) == (theirs.drift_x, theirs.drift_y)
     counts = sum((frame.counts for frame in expected), FilterCounts())
     summary = found.summary[0]

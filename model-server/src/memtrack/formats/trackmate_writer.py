@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes TrackMate's model file, as TrackMate 7 and 8 open it and the plug-in writes it; with a film it opens on that.
 
-What only the plug-in knows is left out: levels, contrasts, the stage's drift, speeds and diffusivities. A truth says
-besides which spots are ignored.
+What only the plug-in knows is left out: levels, contrasts, errors, the stage's drift, speeds and diffusivities. A
+truth says besides which spots are ignored.
 """
 
 from __future__ import annotations

@@ -75,7 +75,8 @@ final class Messages {
         for (org.memtrack.v1.Detection detection : messages) {
             Box box = new Box(detection.getXMin(), detection.getYMin(), detection.getXMax(), detection.getYMax());
             double contrast = detection.hasContrast() ? detection.getContrast() : Double.NaN;
-            detections.add(new Detection(box, detection.getScore(), level(detection.getLevel()), contrast));
+            double error = detection.hasError() ? detection.getError() : Double.NaN;
+            detections.add(new Detection(box, detection.getScore(), level(detection.getLevel()), contrast, error));
         }
         return detections;
     }

@@ -17,6 +17,8 @@ public enum SpotFeature {
     SCORE("MEMTRACK_SCORE", "Detection score", "Score", "QUALITY", false),
     /** How much brighter (above 0) or darker than the background it is, in [-1, 1]; missing when not known. */
     CONTRAST("MEMTRACK_CONTRAST", "Contrast to background", "Contrast", "NONE", false),
+    /** How far off the detection's centre is to be expected along x or y, calibrated; missing when not known. */
+    POSITION_ERROR("MEMTRACK_POSITION_ERROR", "Position error", "Pos. error", "LENGTH", false),
     /** Class of motility of the track: 0 none, 1 low, 2 medium, 3 high; missing when it is not known. */
     MOTILITY("MEMTRACK_MOTILITY", "Motility class", "Motility", "NONE", true),
     /** How far the scene stands right of its place in the first frame, calibrated; missing when it is not known to move. */

@@ -23,7 +23,8 @@ import org.memtrack.video.FilmInfo;
  * nothing but numbers and our own words, so no spreadsheet takes one for a formula.
  */
 public final class TrackCsv {
-    static final String HEADER = "track,frame,time_s,x,y,x_um,y_um,width,height,score,level,interpolated,motility";
+    static final String HEADER =
+            "track,frame,time_s,x,y,x_um,y_um,width,height,score,level,position_error,interpolated,motility";
 
     private TrackCsv() {}
 
@@ -67,6 +68,7 @@ public final class TrackCsv {
                 measured ? decimal(box.height()) : "",
                 detection == null ? "" : decimal(detection.score()),
                 detection == null ? "" : word(detection.level()),
+                detection == null || Double.isNaN(detection.error()) ? "" : decimal(detection.error()),
                 point.interpolated() ? "1" : "0",
                 motility.motilityClass().map(TrackCsv::word).orElse(""));
     }

@@ -138,6 +138,10 @@ final class TrackMateXmlWriter {
             if (Double.isFinite(detection.contrast())) {
                 attributes.addAll(List.of(SpotFeature.CONTRAST.key(), Double.toString(detection.contrast())));
             }
+            if (Double.isFinite(detection.error())) {
+                attributes.addAll(
+                        List.of(SpotFeature.POSITION_ERROR.key(), Double.toString(detection.error() * pixelSize)));
+            }
         }
         spot.motility()
                 .motilityClass()

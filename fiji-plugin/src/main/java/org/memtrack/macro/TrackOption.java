@@ -158,6 +158,12 @@ public enum TrackOption {
             word(SortSettings.DEFAULTS.interpolation()),
             "fill the gaps between detections, or as the paper's authors, with a tail after the last one",
             choices(Interpolation.values(), TrackOption::word)),
+    SMOOTH(
+            "smooth",
+            "Smooth unsure positions",
+            Kind.SWITCH,
+            "true",
+            "bring each point to where the way before and after it says, as far as its own position is unsure; off in the paper, and where Interpolation (interpolation) is authors"),
     PYTHON("python", "Python", Kind.TEXT, "", "interpreter to start the server with; found if left out"),
     SERVER("server", "Server (host:port)", Kind.TEXT, "", "a server that runs already; its token in MEMTRACK_TOKEN");
 

@@ -79,7 +79,7 @@ public record TrackRequest(
 
     /**
      * The options that say all of {@link #settingsFor}, whatever the defaults of another version are: those of the request,
-     * with the lengths and the second look that were in force.
+     * with the lengths, the second look and the smoothing that were in force.
      */
     public Map<String, String> optionsFor(int frameCount) {
         TrackingSettings inForce = settingsFor(frameCount);
@@ -88,6 +88,7 @@ public record TrackRequest(
         all.put(MIN_LENGTH.key(), Integer.toString(filter.minimumLength()));
         all.put(MIN_LENGTH_SURE.key(), Integer.toString(filter.minimumLengthIfSure()));
         all.put(SECOND_LOOK.key(), Boolean.toString(inForce.secondLook()));
+        all.put(SMOOTH.key(), Boolean.toString(inForce.tracking().smooth()));
         return all;
     }
 
@@ -170,12 +171,14 @@ public record TrackRequest(
 
     private static SortSettings tracking(OptionValues values) {
         SortSettings preset = values.choice(PRESET, SortSettings.class);
+        Interpolation interpolation = values.choice(INTERPOLATION, Interpolation.class);
         return new SortSettings(
                 values.choice(ASSOCIATION, Association.class),
                 values.number(IOU_GATE).orElse(preset.iouGate()),
                 values.integer(MAX_AGE).orElse(preset.maximumAge()),
                 values.integer(MIN_HITS).orElse(preset.minimumHits()),
-                values.choice(INTERPOLATION, Interpolation.class),
+                interpolation,
+                values.flag(SMOOTH) && interpolation == Interpolation.FILL_GAPS,
                 filter(values, preset.filter()));
     }
 

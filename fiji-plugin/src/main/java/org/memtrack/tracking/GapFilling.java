@@ -2,6 +2,7 @@
 package org.memtrack.tracking;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.function.ToDoubleFunction;
 import org.memtrack.detection.Box;
@@ -58,7 +59,9 @@ public final class GapFilling {
         double[] measured = observed.stream()
                 .mapToDouble(point -> coordinate.applyAsDouble(point.box()))
                 .toArray();
-        return AxisSmoother.smooth(frames, measured, noise, MotionModel.PERSISTENCE);
+        double[] variances = new double[frames.length];
+        Arrays.fill(variances, noise.measurement());
+        return AxisSmoother.smooth(frames, measured, variances, noise).values();
     }
 
     /** Noise of a swimmer that turns the more the faster it is. */

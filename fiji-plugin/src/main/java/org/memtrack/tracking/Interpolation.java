@@ -5,7 +5,7 @@ package org.memtrack.tracking;
 public enum Interpolation {
     /**
      * The frames between two detections of a track are filled from both sides; nothing follows its last detection.
-     * Observed points keep the box of their detection.
+     * Observed points keep the box of their detection, or are smoothed ({@link SortSettings#smooth}).
      */
     FILL_GAPS,
     /**

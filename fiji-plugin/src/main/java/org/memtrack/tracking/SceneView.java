@@ -31,8 +31,7 @@ final class SceneView {
         }
         List<Detection> moved = new ArrayList<>();
         for (Detection detection : frame.detections()) {
-            Box box = moved(detection.box(), -frame.driftX(), -frame.driftY());
-            Detection there = new Detection(box, detection.score(), detection.level(), detection.contrast());
+            Detection there = detection.at(moved(detection.box(), -frame.driftX(), -frame.driftY()));
             found.put(there, detection);
             moved.add(there);
         }

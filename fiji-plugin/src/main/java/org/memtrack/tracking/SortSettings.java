@@ -12,6 +12,8 @@ package org.memtrack.tracking;
  * @param minimumHits detections a track needs, at least 0 (paper section "Interpolated Tracker"). {@code AUTHORS}: points
  *     are reported only after that many consecutive ones, as in SORT; {@code FILL_GAPS}: a track with fewer is dropped
  * @param interpolation what stands in a track where no detection was found
+ * @param smooth whether detections are brought to where their swimmer most likely was, as far as their place is unsure; used
+ *     by {@code FILL_GAPS}, and not a part of the paper
  * @param filter which tracks are kept (paper section "Track Length Filter": at least 60 frames in collagen, 30 in water)
  */
 public record SortSettings(
@@ -20,11 +22,12 @@ public record SortSettings(
         int maximumAge,
         int minimumHits,
         Interpolation interpolation,
+        boolean smooth,
         TrackFilter filter) {
 
     /** Films in collagen and other dense media, where swimmers are slow: tracks of 60 frames. */
-    public static final SortSettings COLLAGEN =
-            new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofSwimmers(60));
+    public static final SortSettings COLLAGEN = new SortSettings(
+            Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, true, TrackFilter.ofSwimmers(60));
 
     /** Films in water, where swimmers soon leave the focal plane: tracks of 30 frames. */
     public static final SortSettings WATER = COLLAGEN.with(TrackFilter.ofSwimmers(30));
@@ -41,7 +44,7 @@ public record SortSettings(
 
     /** The same settings with another filter. */
     public SortSettings with(TrackFilter newFilter) {
-        return new SortSettings(association, iouGate, maximumAge, minimumHits, interpolation, newFilter);
+        return new SortSettings(association, iouGate, maximumAge, minimumHits, interpolation, smooth, newFilter);
     }
 
     private static void requireAtLeast(String name, int least, int value) {

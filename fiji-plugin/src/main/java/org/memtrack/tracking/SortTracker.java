@@ -13,9 +13,9 @@ import org.memtrack.detection.StageDrift;
 
 /**
  * Joins the detections of a film into tracks: SORT, interpolation and the track length filter (paper sections
- * "Interpolated Tracker" and "Track Length Filter"). Two things the paper does not have, nor does {@link
- * Interpolation#AUTHORS}: tracks that share a swimmer become one, and where the frames hold faint boxes, a second look finds
- * the cells that are among them.
+ * "Interpolated Tracker" and "Track Length Filter"). What the paper does not have, nor does {@link
+ * Interpolation#AUTHORS}: tracks that share a swimmer become one, unsure positions are smoothed, and where the frames hold
+ * faint boxes, a second look finds the cells that are among them.
  */
 public final class SortTracker {
     private final SortSettings settings;
@@ -47,7 +47,7 @@ public final class SortTracker {
      * @param frames in ascending order of frame; a frame that is left out counts as one without detections. Detections are
      *     joined by where they stand in the scene, freed of its drift
      * @param progress told the share of the work that is done, in [0, 1]
-     * @param cancelled asked once a frame
+     * @param cancelled asked once a frame, and once a track that is smoothed
      * @throws CancellationException when {@code cancelled} said so
      * @throws IllegalArgumentException when the frames are not in ascending order
      */
@@ -83,6 +83,9 @@ public final class SortTracker {
         }
         if (ours && settings.association() == Association.MOTION) {
             cells = Twins.joined(cells);
+        }
+        if (ours && settings.smooth()) {
+            cells = smooth(cells, cancelled);
         }
         List<List<TrackPoint>> kept =
                 new ArrayList<>(cells.stream().map(scene::inFilm).toList());
@@ -149,6 +152,17 @@ public final class SortTracker {
             expected++;
             progress.accept((i + 1.0) / frames.size());
         }
+    }
+
+    private static List<List<TrackPoint>> smooth(List<List<TrackPoint>> cells, BooleanSupplier cancelled) {
+        List<List<TrackPoint>> smooth = new ArrayList<>(cells.size());
+        for (List<TrackPoint> points : cells) {
+            if (cancelled.getAsBoolean()) {
+                throw new CancellationException("Tracking was cancelled");
+            }
+            smooth.add(Smoothing.smooth(points));
+        }
+        return smooth;
     }
 
     private static double typicalEdge(List<FrameDetections> frames) {

@@ -138,6 +138,9 @@ final class MemtrackDetector<T extends RealType<T> & NativeType<T>> extends Stop
         if (Double.isFinite(detection.contrast())) {
             spot.putFeature(SpotFeature.CONTRAST.key(), detection.contrast());
         }
+        if (Double.isFinite(detection.error())) {
+            spot.putFeature(SpotFeature.POSITION_ERROR.key(), detection.error() * film.pixelWidth());
+        }
         spot.putFeature(SpotFeature.BOX_WIDTH.key(), width);
         spot.putFeature(SpotFeature.BOX_HEIGHT.key(), height);
         spot.putFeature(SpotFeature.INTERPOLATED.key(), 0.0);

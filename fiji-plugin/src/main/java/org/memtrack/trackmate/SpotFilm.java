@@ -74,7 +74,8 @@ final class SpotFilm {
                         Spots.box(spot, pixelWidth, pixelHeight),
                         Spots.value(spot, Spot.QUALITY, 0),
                         SpotFeature.levelOf(Spots.value(spot, SpotFeature.LEVEL.key(), 0)),
-                        Spots.value(spot, SpotFeature.CONTRAST.key(), Double.NaN));
+                        Spots.value(spot, SpotFeature.CONTRAST.key(), Double.NaN),
+                        Spots.value(spot, SpotFeature.POSITION_ERROR.key(), Double.NaN) / pixelWidth);
                 spotOf.put(detection, spot);
                 detections.add(detection);
             }

@@ -50,6 +50,7 @@ final class TrackerSettings {
                 (Integer) map.get(MAXIMUM_AGE),
                 (Integer) map.get(MINIMUM_HITS),
                 SettingsMap.choice(Interpolation.class, INTERPOLATION, map),
+                false, // spots stay where their detector put them
                 new TrackFilter(
                         (Integer) map.get(MINIMUM_TRACK_LENGTH),
                         (Integer) map.get(MINIMUM_TRACK_LENGTH_IF_SURE),

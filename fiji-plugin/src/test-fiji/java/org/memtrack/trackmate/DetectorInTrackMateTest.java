@@ -119,6 +119,7 @@ class DetectorInTrackMateTest {
                 assertThat(spot.getFeature(Spot.QUALITY)).isEqualTo(spot.getFeature("MEMTRACK_SCORE")).isBetween(0.0, 1.0);
                 assertThat(spot.getFeature("MEMTRACK_LEVEL")).isBetween(1.0, 3.0);
                 assertThat(spot.getFeature("MEMTRACK_CONTRAST")).isBetween(-1.0, 1.0);
+                assertThat(spot.getFeature("MEMTRACK_POSITION_ERROR")).isBetween(0.0, 10 * MICROMETRES_PER_PIXEL);
             }
         }
         assertThat(trackmate.getModel().getTrackModel().nTracks(true)).isBetween(5, 60);

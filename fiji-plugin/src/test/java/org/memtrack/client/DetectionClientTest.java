@@ -39,7 +39,7 @@ class DetectionClientTest {
             assertThat(server.chunkFrames).containsExactly(0, 1, 2, 3);
             assertThat(result.frames()).extracting(f -> f.detections().size()).containsExactly(0, 1, 2, 3);
             assertThat(result.frames().get(2).detections().get(1))
-                    .isEqualTo(new Detection(new Box(1, 11, 21, 41), 0.75, Level.MEDIUM, -0.5));
+                    .isEqualTo(new Detection(new Box(1, 11, 21, 41), 0.75, Level.MEDIUM, -0.5, 0.25));
             assertThat(result.frames().get(2).faint())
                     .containsExactly(new Detection(new Box(50, 60, 80, 90), 0.125, Level.LOW));
             assertThat(result.frames().get(3).driftY()).isEqualTo(-0.5);

@@ -151,7 +151,8 @@ final class ScriptedServer extends DetectionServiceGrpc.DetectionServiceImplBase
                     .setYMax(i + 40)
                     .setScore(0.75f)
                     .setLevel(Level.LEVEL_MEDIUM)
-                    .setContrast(-0.5f));
+                    .setContrast(-0.5f)
+                    .setError(0.25f));
         }
         found.addFaint(Detection.newBuilder()
                 .setXMin(50)

@@ -17,6 +17,7 @@ import org.memtrack.detection.Level;
  * @param level {@code UNSPECIFIED} when the file has none
  * @param interpolated whether the file says that no detection stands behind it
  * @param contrast empty when the file has none
+ * @param positionError pixels; empty when the file has none
  * @param driftX how far the scene stands right of its place in frame 0, pixels; empty when the file does not say
  * @param driftY how far the scene stands below its place in frame 0, likewise
  */
@@ -31,5 +32,6 @@ record ImportedSpot(
         Level level,
         boolean interpolated,
         OptionalDouble contrast,
+        OptionalDouble positionError,
         OptionalDouble driftX,
         OptionalDouble driftY) {}

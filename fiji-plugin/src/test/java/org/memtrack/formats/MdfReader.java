@@ -51,6 +51,7 @@ final class MdfReader {
                 time != Math.round(time),
                 OptionalDouble.empty(),
                 OptionalDouble.empty(),
+                OptionalDouble.empty(),
                 OptionalDouble.empty());
     }
 }

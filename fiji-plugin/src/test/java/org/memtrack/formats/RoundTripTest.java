@@ -186,8 +186,10 @@ class RoundTripTest {
                 assertThat(spot.level()).isEqualTo(detection == null ? Level.UNSPECIFIED : detection.level());
                 if (detection == null) {
                     assertThat(spot.score()).isEqualTo(OptionalDouble.empty());
+                    assertThat(spot.positionError()).isEqualTo(OptionalDouble.empty());
                 } else {
                     assertThat(spot.score().getAsDouble()).isCloseTo(detection.score(), within(tolerance));
+                    assertThat(spot.positionError().getAsDouble()).isCloseTo(detection.error(), within(tolerance));
                     spot.contrast().ifPresent(contrast -> assertThat(contrast).isEqualTo(detection.contrast()));
                 }
             }

@@ -49,7 +49,7 @@ class ServerTestFilesTest {
     }
 
     private static TrackPoint point(int frame, Box box, double score, Level level) {
-        return new TrackPoint(frame, box, new Detection(box, score, level, score - 1));
+        return new TrackPoint(frame, box, new Detection(box, score, level, score - 1, score / 4));
     }
 
     @Test

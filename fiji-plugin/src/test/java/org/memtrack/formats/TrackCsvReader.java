@@ -40,6 +40,7 @@ final class TrackCsvReader {
                             named(Level.values(), row[columns.indexOf("level")]).orElse(Level.UNSPECIFIED),
                             row[columns.indexOf("interpolated")].equals("1"),
                             OptionalDouble.empty(),
+                            number(row[columns.indexOf("position_error")]),
                             OptionalDouble.empty(),
                             OptionalDouble.empty()));
         }

@@ -74,6 +74,7 @@ final class TrackMateXmlReader {
                 SpotFeature.levelOf(number(spot, SpotFeature.LEVEL.key()).orElse(0)),
                 integer(spot, SpotFeature.INTERPOLATED.key()) == 1,
                 number(spot, SpotFeature.CONTRAST.key()),
+                pixels(spot, SpotFeature.POSITION_ERROR.key()),
                 pixels(spot, SpotFeature.DRIFT_X.key()),
                 pixels(spot, SpotFeature.DRIFT_Y.key()));
     }

@@ -42,7 +42,7 @@ final class TrackedWorlds {
                 calibrated ? OptionalDouble.of(0.2475) : OptionalDouble.empty(),
                 calibrated ? OptionalDouble.of(1 / 60.0) : OptionalDouble.empty());
         SortSettings settings =
-                new SortSettings(Association.MOTION, 0.05, 8, 0, interpolation, TrackFilter.ofLength(5));
+                new SortSettings(Association.MOTION, 0.05, 8, 0, interpolation, false, TrackFilter.ofLength(5));
         List<FrameDetections> frames = world.frames().stream()
                 .map(frame -> drifted(frame, drift * frame.frame(), -drift * frame.frame() / 2))
                 .toList();
@@ -55,7 +55,12 @@ final class TrackedWorlds {
                 .map(detection -> {
                     Box box = detection.box();
                     Box there = Box.around(box.centreX() + x, box.centreY() + y, box.width(), box.height());
-                    return new Detection(there, detection.score(), detection.level(), detection.score() - 0.75);
+                    return new Detection(
+                            there,
+                            detection.score(),
+                            detection.level(),
+                            detection.score() - 0.75,
+                            1 - detection.score());
                 })
                 .toList();
         return new FrameDetections(frame.frame(), moved, x, y);

@@ -59,7 +59,7 @@ class TrackRequestTest {
         assertThat(request.settings().detection().cellLengthPx()).isEqualTo(8.5);
         assertThat(request.settings().tracking())
                 .isEqualTo(new SortSettings(
-                        Association.OVERLAP, 0.07, 24, 4, Interpolation.AUTHORS, new TrackFilter(30, 20, 0.25)));
+                        Association.OVERLAP, 0.07, 24, 4, Interpolation.AUTHORS, false, new TrackFilter(30, 20, 0.25)));
         assertThat(request.settings().secondLook()).isFalse();
         assertThat(request.settings().server().address()).isEqualTo("host:1");
         assertThat(request.settings().server().python()).hasFileName("python");
@@ -85,6 +85,10 @@ class TrackRequestTest {
         assertThat(of("output=/out threshold_low=0.5 threshold_medium=0.5 threshold_high=0.5")
                         .settings()
                         .secondLook())
+                .isFalse();
+        assertThat(of("output=/out smooth=false").settings().tracking().smooth())
+                .isFalse();
+        assertThat(of("output=/out interpolation=authors").settings().tracking().smooth())
                 .isFalse();
         assertThat(of("output=/out interpolation=authors").settings().secondLook())
                 .isFalse();
@@ -145,7 +149,7 @@ class TrackRequestTest {
         for (int frames : new int[] {1, 50, 120, 1000}) {
             TrackRequest request = of(line);
             Map<String, String> inForce = request.optionsFor(frames);
-            assertThat(inForce).containsKeys("min_length", "min_length_sure", "second_look");
+            assertThat(inForce).containsKeys("min_length", "min_length_sure", "second_look", "smooth");
             TrackRequest again = of(OptionLine.format(inForce));
             assertThat(again.settingsFor(frames)).isEqualTo(request.settingsFor(frames));
             assertThat(again.warningsFor(frames)).isEmpty();

@@ -28,7 +28,8 @@ class ContrastModelTest {
             for (int i = 0; i < now.length; i++) {
                 now[i] += CHANGE * random.nextGaussian();
                 double measured = now[i] + ERROR * random.nextGaussian();
-                detections.add(new Detection(Box.around(100 * i, frame, 30, 30), 0.9, Level.HIGH, measured));
+                detections.add(
+                        new Detection(Box.around(100 * i, frame, 30, 30), 0.9, Level.HIGH, measured, Double.NaN));
             }
             sort.step(new FrameDetections(frame, detections));
         }

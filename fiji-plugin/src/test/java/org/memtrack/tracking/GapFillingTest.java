@@ -54,8 +54,8 @@ class GapFillingTest {
 
     @Test
     void inRandomWorldsItIsNearerToTheTruthThanTheStraightLine() {
-        SortSettings settings =
-                new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
+        SortSettings settings = new SortSettings(
+                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
         for (String name : List.of("collagen", "water")) {
             RandomWorld world = RandomWorld.of(TrackingBenchmark.WORLDS.get(name), 77);
             List<Track> filled = new SortTracker(settings).track(world.frames());

@@ -45,7 +45,7 @@ class MeetingsTest {
         return IntStream.range(0, FRAMES)
                 .mapToObj(frame -> {
                     Box box = Box.around(x.applyAsDouble(frame), y.applyAsDouble(frame), 30, 30);
-                    return new TrackPoint(frame, box, new Detection(box, 0.9, Level.HIGH, contrast));
+                    return new TrackPoint(frame, box, new Detection(box, 0.9, Level.HIGH, contrast, Double.NaN));
                 })
                 .toList();
     }

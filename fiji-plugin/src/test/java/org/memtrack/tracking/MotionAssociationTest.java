@@ -17,7 +17,7 @@ class MotionAssociationTest {
     private static final SwimmerModel SWIMMERS = new SwimmerModel(30, MotionModel.swimmers(30), CONTRASTS);
 
     private static Detection at(double x, double y, double contrast) {
-        return new Detection(Box.around(x, y, 30, 30), 0.9, Level.HIGH, contrast);
+        return new Detection(Box.around(x, y, 30, 30), 0.9, Level.HIGH, contrast, Double.NaN);
     }
 
     private static Tracklet begun(double x, double y, double contrast) {

@@ -33,7 +33,13 @@ class ReferenceTrackersTest {
         Path detections = ExaminationData.path(folder, "det", sequence + ".txt");
         Path expected = ExaminationData.path(folder, reference, sequence + ".txt");
         SortSettings settings = new SortSettings(
-                Association.OVERLAP, iouGate, maximumAge, minimumHits, Interpolation.AUTHORS, TrackFilter.ofLength(1));
+                Association.OVERLAP,
+                iouGate,
+                maximumAge,
+                minimumHits,
+                Interpolation.AUTHORS,
+                false,
+                TrackFilter.ofLength(1));
 
         var tracks = new SortTracker(settings).track(TrackerOutput.detections(TrackerOutput.read(detections)));
 

@@ -63,6 +63,7 @@ class SortConformanceTest {
                 world.maximumAge(),
                 world.minimumHits(),
                 Interpolation.AUTHORS,
+                false,
                 TrackFilter.ofLength(1));
 
         List<Track> tracks = new SortTracker(settings).track(frames);

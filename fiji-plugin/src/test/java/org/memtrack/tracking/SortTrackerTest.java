@@ -9,8 +9,10 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.IdentityHashMap;
 import java.util.List;
+import java.util.Random;
 import java.util.Set;
 import java.util.concurrent.CancellationException;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -27,7 +29,7 @@ class SortTrackerTest {
     private static final int MAXIMUM_AGE = 5;
 
     private static SortSettings settings(Association association, Interpolation interpolation) {
-        return new SortSettings(association, 0.05, MAXIMUM_AGE, 0, interpolation, TrackFilter.ofLength(1));
+        return new SortSettings(association, 0.05, MAXIMUM_AGE, 0, interpolation, false, TrackFilter.ofLength(1));
     }
 
     private static List<Track> track(List<FrameDetections> frames) {
@@ -114,8 +116,8 @@ class SortTrackerTest {
 
     @Test
     void tracksOfFewerThanMinimumHitsAreDropped() {
-        SortSettings hits =
-                new SortSettings(Association.MOTION, 0.05, 25, 3, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
+        SortSettings hits = new SortSettings(
+                Association.MOTION, 0.05, 25, 3, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
 
         assertThat(new SortTracker(hits).track(swimmerSeenIn(0, 4))).isEmpty();
         assertThat(new SortTracker(hits).track(swimmerSeenIn(0, 2, 4))).hasSize(1);
@@ -153,10 +155,12 @@ class SortTrackerTest {
             double before = 2 * Math.max(0, 35 - frame);
             double after = 2 * Math.max(0, frame - 45);
             double x = 100 + drift * frame;
-            Detection bright = new Detection(Box.around(x - before, 90 - up * after, 30, 30), 0.9, Level.HIGH, 0.3);
-            Detection dark = new Detection(Box.around(x + before, 90 + up * after, 30, 30), 0.9, Level.HIGH, -0.3);
+            Detection bright =
+                    new Detection(Box.around(x - before, 90 - up * after, 30, 30), 0.9, Level.HIGH, 0.3, Double.NaN);
+            Detection dark =
+                    new Detection(Box.around(x + before, 90 + up * after, 30, 30), 0.9, Level.HIGH, -0.3, Double.NaN);
             boolean apart = before + after > 4; // one box for both while they lie over each other
-            Detection together = new Detection(Box.around(x, 90, 30, 30), 0.9, Level.HIGH, 0);
+            Detection together = new Detection(Box.around(x, 90, 30, 30), 0.9, Level.HIGH, 0, Double.NaN);
             // The upper one first, so that their order does not tell either.
             List<Detection> both = up * after > 0 ? List.of(bright, dark) : List.of(dark, bright);
             frames.add(new FrameDetections(frame, apart ? both : List.of(together), drift * frame, 0));
@@ -286,12 +290,59 @@ class SortTrackerTest {
     }
 
     @Test
+    void unsurePlacesAreSmoothedInTheSceneUnlessTheUserWantsThemAsFound() {
+        List<FrameDetections> frames = new ArrayList<>();
+        Random random = new Random(3);
+        for (int frame = 0; frame < 60; frame++) {
+            // The stage shakes by pixels, the swimmer goes straight on.
+            double drift = 5 * random.nextGaussian();
+            double error = 0.4 * random.nextGaussian();
+            Box box = Box.around(40 + frame + drift + error, 50, 30, 30);
+            frames.add(new FrameDetections(
+                    frame, List.of(new Detection(box, 0.9, Level.HIGH, Double.NaN, 1)), drift, 0, List.of()));
+        }
+        SortSettings settings = SortSettings.COLLAGEN.with(TrackFilter.ofLength(1));
+        SortSettings asFound = new SortSettings(
+                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
+
+        Track smooth = new SortTracker(settings).track(frames).get(0);
+        Track found = new SortTracker(asFound).track(frames).get(0);
+
+        assertThat(smooth.points()).hasSize(60);
+        assertThat(errors(smooth, frames)).isLessThan(0.6 * errors(found, frames));
+        for (int frame = 0; frame < 60; frame++) {
+            Detection detection = frames.get(frame).detections().get(0);
+            assertThat(smooth.points().get(frame).detection()).isSameAs(detection);
+            assertThat(found.points().get(frame).box()).isEqualTo(detection.box());
+        }
+        AtomicInteger asked = new AtomicInteger();
+        new SortTracker(settings).trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() < 0);
+        int last = asked.getAndSet(0);
+        assertThatThrownBy(() -> new SortTracker(settings)
+                        .trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() == last))
+                .isInstanceOf(CancellationException.class)
+                .hasMessage("Tracking was cancelled");
+    }
+
+    /** Root mean square distance of the swimmer above from where it is. */
+    private static double errors(Track track, List<FrameDetections> frames) {
+        return Math.sqrt(track.points().stream()
+                .mapToDouble(point -> point.box().centreX()
+                        - 40
+                        - point.frame()
+                        - frames.get(point.frame()).driftX())
+                .map(error -> error * error)
+                .average()
+                .orElseThrow());
+    }
+
+    @Test
     void associationByMotionSwitchesBetweenSwimmersLessThanTheOneByOverlap() {
         RandomWorld.Settings crowd = TrackingBenchmark.WORLDS.get("crowd");
-        SortSettings byMotion =
-                new SortSettings(Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
-        SortSettings byOverlap =
-                new SortSettings(Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
+        SortSettings byMotion = new SortSettings(
+                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
+        SortSettings byOverlap = new SortSettings(
+                Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
         int motion = 0;
         int overlap = 0;
         for (int seed = 100; seed < 102; seed++) {

@@ -44,7 +44,7 @@ final class TrackingBenchmark {
 
     private static void report(String name, RandomWorld.Settings settingsOfWorld, Association association, int seeds) {
         SortSettings settings =
-                new SortSettings(association, 0.05, 25, 0, Interpolation.FILL_GAPS, TrackFilter.ofLength(1));
+                new SortSettings(association, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
         int switches = 0;
         double accuracy = 0;
         double squares = 0;

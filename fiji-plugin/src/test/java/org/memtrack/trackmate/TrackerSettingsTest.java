@@ -12,12 +12,16 @@ import org.memtrack.tracking.TrackFilter;
 
 class TrackerSettingsTest {
     private static final SortSettings OTHERS =
-            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, new TrackFilter(13, 7, 0.2));
+            new SortSettings(Association.MOTION, 0.3, 11, 2, Interpolation.AUTHORS, false, new TrackFilter(13, 7, 0.2));
 
     @Test
     void settingsSurviveTheMap() {
         assertThat(TrackerSettings.fromMap(TrackerSettings.toMap(OTHERS))).isEqualTo(OTHERS);
-        assertThat(TrackerSettings.fromMap(TrackerSettings.MAP.defaults())).isEqualTo(SortSettings.DEFAULTS);
+        SortSettings defaults = TrackerSettings.fromMap(TrackerSettings.MAP.defaults());
+        assertThat(defaults.smooth())
+                .as("spots stay where their detector put them")
+                .isFalse();
+        assertThat(defaults).usingRecursiveComparison().ignoringFields("smooth").isEqualTo(SortSettings.DEFAULTS);
     }
 
     @Test

@@ -79,6 +79,7 @@ class TrackMacroTest {
             assertThat(Integer.parseInt(point.get("frame"))).isBetween(10, 35);
             if (point.get("interpolated").equals("0")) {
                 assertThat(Double.parseDouble(point.get("x"))).isLessThan(151);
+                assertThat(Double.parseDouble(point.get("position_error"))).isBetween(0.001, 3.0);
             }
         });
     }
