@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """By what factor a film is brought to the cells that a model knows."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from memtrack.errors import SettingsError
 from memtrack.film import ArrayFilm, Calibration
 from memtrack.models import Model, load_model
+from memtrack.pipeline import caveats
 from memtrack.scale import model_scale
 from memtrack.settings import DetectionSettings
 
@@ -25,6 +27,18 @@ def test_a_stated_cell_length_takes_the_place_of_a_calibration(model: Model) -> 
     assert model_scale(film, model, DetectionSettings(cell_length_px=2 * high)) == pytest.approx(0.5)
     assert model_scale(film, model, DetectionSettings()) == pytest.approx(high / 200)
     assert model_scale(replace(film, calibration=Calibration()), model, DetectionSettings()) == 1
+
+
+def test_where_cells_would_be_a_pixel_long_the_film_shows_something_larger_and_is_not_enlarged(model: Model) -> None:
+    small, large = (ArrayFilm(np.zeros((20, 8, 8), np.uint8), Calibration(size)) for size in (1.3, 2.2))
+    assert model_scale(small, model, DetectionSettings()) == pytest.approx(model.card.cell_length_px[0] * 1.3 / 2)
+    assert caveats(small, model, DetectionSettings()) == []
+    assert model_scale(large, model, DetectionSettings()) == 1
+    (said,) = caveats(large, model, DetectionSettings())
+    assert re.match(r"With pixels of 2\.2 um, cells of 2 um could hardly be seen, .* give the length", said)
+    stated = DetectionSettings(cell_length_px=36.0)
+    assert model_scale(large, model, stated) == pytest.approx(model.card.cell_length_px[1] / 36)
+    assert caveats(large, model, stated) == []
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from memtrack.nets import Nets
 from memtrack.progress import Report, Stage
 from memtrack.pruning import faint, prune
 from memtrack.resampling import scaled
-from memtrack.scale import model_scale
+from memtrack.scale import model_scale, shows_larger
 from memtrack.settings import DetectionSettings
 from memtrack.stabilisation import measure_motion
 from memtrack.view import View
@@ -192,6 +192,11 @@ def caveats(film: Film, model: Model, settings: DetectionSettings) -> list[str]:
         SettingsError: see `model_scale`.
     """
     said, scale = [], model_scale(film, model, settings)
+    if settings.cell_length_px is None and shows_larger(model.card.cell_length_px, film.calibration):
+        said.append(
+            f"With pixels of {film.calibration.pixel_size_um:g} um, cells of 2 um could hardly be seen, so the film is "
+            "used at its own scale, or at a smaller one where more is found then; give the length of what it shows."
+        )
     if film.calibration.pixel_size_um is None and settings.cell_length_px is None:
         said.append(
             "The film has no pixel size and no cell length was given, so it is used at its own scale, or at a smaller "

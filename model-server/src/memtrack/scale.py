@@ -14,6 +14,9 @@ CELL_LENGTH_UM = 2.0
 """Length of the bacteria the models are trained on (paper: rods of about 2 x 0.8 um)."""
 SCALES = (0.05, 8.0)
 """Least and greatest factor frames are scaled by: what is more is a mistake, and would not fit into memory."""
+MOST_BY_PIXEL_SIZE = 3.0
+"""A pixel size alone enlarges frames no further: cells of 2 um would be little more than a pixel long, and hardly seen;
+such a film shows something larger, microrobots most likely."""
 
 
 def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
@@ -30,7 +33,8 @@ def model_scale(film: Film, model: Model, settings: DetectionSettings) -> float:
 
 
 def scale_to(cell_length_px: tuple[float, float], calibration: Calibration) -> float:
-    """Factor that brings a film of this pixel size to cells of a length in `cell_length_px`; 1 without a pixel size.
+    """Factor that brings a film of this pixel size to cells of a length in `cell_length_px`; 1 without a pixel size, or
+    where it tells that the film `shows_larger` things.
 
     Raises:
         SettingsError: it is outside `SCALES`.
@@ -39,7 +43,15 @@ def scale_to(cell_length_px: tuple[float, float], calibration: Calibration) -> f
     if size is None:
         return 1.0
     given = f"a pixel size of {size:g} um"
-    return _factor(cell_length_px, CELL_LENGTH_UM / size, given, "the true pixel size, or the length of a cell")
+    factor = _factor(cell_length_px, CELL_LENGTH_UM / size, given, "the true pixel size, or the length of a cell")
+    return 1.0 if shows_larger(cell_length_px, calibration) else factor
+
+
+def shows_larger(cell_length_px: tuple[float, float], calibration: Calibration) -> bool:
+    """Whether the pixel size is so great that the film must show something larger than cells, see
+    `MOST_BY_PIXEL_SIZE`."""
+    size = calibration.pixel_size_um
+    return size is not None and cell_length_px[0] * size > MOST_BY_PIXEL_SIZE * CELL_LENGTH_UM
 
 
 def _factor(known: tuple[float, float], length: float, given: str, wanted: str) -> float:
