@@ -26,9 +26,9 @@ final class Smoothing {
 
     /**
      * Share of a detection's error that differs from one frame to the next. The rest, which a halo or the focus makes, stays
-     * for many frames, and cannot be told from the swimmer's own motion: smoothed as if it could, slow swimmers rest.
+     * for many frames, and cannot be told from the swimmer's own motion: smoothed as if it could, slow swimmers seem slower.
      */
-    private static final double VARYING = 0.4;
+    private static final double VARYING = 0.3;
 
     /** A way, frame by frame, and how likely it makes the detections, as a logarithm. */
     private record Way(double[] x, double[] y, double likelihood) {}

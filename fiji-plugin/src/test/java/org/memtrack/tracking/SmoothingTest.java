@@ -72,8 +72,8 @@ class SmoothingTest {
                 // As much of it as differs from frame to frame.
                 points.add(observed(
                         frame,
-                        places[frame][0] + 0.4 * error * random.nextGaussian(),
-                        places[frame][1] + 0.4 * error * random.nextGaussian(),
+                        places[frame][0] + 0.3 * error * random.nextGaussian(),
+                        places[frame][1] + 0.3 * error * random.nextGaussian(),
                         error));
             }
             List<TrackPoint> smooth = Smoothing.smooth(GapFilling.fill(points));

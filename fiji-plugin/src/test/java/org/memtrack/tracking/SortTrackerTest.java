@@ -296,7 +296,7 @@ class SortTrackerTest {
         for (int frame = 0; frame < 60; frame++) {
             // The stage shakes by pixels, the swimmer goes straight on.
             double drift = 5 * random.nextGaussian();
-            double error = 0.4 * random.nextGaussian();
+            double error = 0.3 * random.nextGaussian();
             Box box = Box.around(40 + frame + drift + error, 50, 30, 30);
             frames.add(new FrameDetections(
                     frame, List.of(new Detection(box, 0.9, Level.HIGH, Double.NaN, 1)), drift, 0, List.of()));
