@@ -39,6 +39,11 @@ def test_where_cells_would_be_a_pixel_long_the_film_shows_something_larger_and_i
     stated = DetectionSettings(cell_length_px=36.0)
     assert model_scale(large, model, stated) == pytest.approx(model.card.cell_length_px[1] / 36)
     assert caveats(large, model, stated) == []
+    tiny = replace(small, calibration=Calibration(0.02))
+    assert caveats(tiny, model, DetectionSettings()) == [
+        "Frames are scaled by 0.12 to reach the model's scale; check the pixel size."
+    ]
+    assert caveats(tiny, model, DetectionSettings(cell_length_px=100)) == []
 
 
 @pytest.mark.parametrize(

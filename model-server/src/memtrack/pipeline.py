@@ -191,24 +191,25 @@ def caveats(film: Film, model: Model, settings: DetectionSettings) -> list[str]:
     Raises:
         SettingsError: see `model_scale`.
     """
-    said, scale = [], model_scale(film, model, settings)
-    if settings.cell_length_px is None and shows_larger(model.card.cell_length_px, film.calibration):
-        said.append(
-            f"With pixels of {film.calibration.pixel_size_um:g} um, cells of 2 um could hardly be seen, so the film is "
-            "used at its own scale, or at a smaller one where more is found then; give the length of what it shows."
-        )
-    if film.calibration.pixel_size_um is None and settings.cell_length_px is None:
-        said.append(
-            "The film has no pixel size and no cell length was given, so it is used at its own scale, or at a smaller "
-            "one where more cells are found then; give one of them to be sure."
-        )
+    said, scale, pixel = [], model_scale(film, model, settings), film.calibration.pixel_size_um
+    if settings.cell_length_px is None:
+        if pixel is None:
+            said.append(
+                "The film has no pixel size and no cell length was given, so it is used at its own scale, or at a "
+                "smaller one where more cells are found then; give one of them to be sure."
+            )
+        elif shows_larger(model.card.cell_length_px, film.calibration):
+            said.append(
+                f"With pixels of {pixel:g} um, cells of 2 um could hardly be seen, so the film is used at its own "
+                "scale, or at a smaller one where more is found then; give the length of what it shows."
+            )
+        elif scale < 0.25:
+            said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
     if film.frame_count < 10:
         said.append(
             f"The film has {film.frame_count} frame(s); with fewer than 10 the still background cannot be told from "
             "slow bacteria."
         )
-    if not 0.25 <= scale <= 4:
-        said.append(f"Frames are scaled by {scale:.3g} to reach the model's scale; check the pixel size.")
     return said
 
 
