@@ -9,6 +9,7 @@ from memtrack.channels import Channel
 from memtrack.contrast import with_contrasts
 from memtrack.detections import Detections
 from memtrack.detector import Engine, padded
+from memtrack.echoes import NEIGHBOURS, without_echoes
 from memtrack.models import Model
 from memtrack.refinement import Refiner, refined
 from memtrack.settings import DetectionSettings
@@ -32,10 +33,14 @@ class Nets:
         return cls(model, model.engine(kind, threads=threads), model.refiner(kind, threads=threads))
 
     def candidates(self, channels: list[Channel]) -> Detections:
-        """Of one frame; with contrasts where the model's features hold the signed deviation."""
+        """Of one frame; where the model's features hold the signed deviation, with contrasts and without echoes."""
         decoder, names = self.model.card.decoder, self.model.card.features.channels
         (height, width), together = channels[0].shape, padded(channels)
         found = decoder.decode(self.engine.run(together), height, width)
+        of = dict(zip(names, channels, strict=True))
+        neighbours = [of[name] for name in NEIGHBOURS if name in of]
+        if DEVIATION in of and neighbours:
+            found = without_echoes(found, of[DEVIATION], neighbours)
         if self.refiner is not None:
             found = refined(found, together[:, :height, :width], self.refiner)
-        return with_contrasts(found, channels[names.index(DEVIATION)]) if DEVIATION in names else found
+        return with_contrasts(found, of[DEVIATION]) if DEVIATION in of else found
