@@ -17,8 +17,8 @@ NEIGHBOURS = ("deviation-2", "deviation+2")
 """Channels of the features that show them."""
 NOTHING, ECHO = 1.5, 0.15
 """An echo is where there is less than `NOTHING`, noise alone being 1, and less than this share of what is there in a
-neighbouring frame: that is 1.1 or more on 19 of 20 boxes on bacteria that move by 8 px a frame, and 0.02 on most of
-their echoes."""
+neighbouring frame: that is 3.4 or more on 19 of 20 boxes on bacteria that move by 8 px a frame, and 0.04 or less on
+19 of 20 of their echoes."""
 REACH_PX = 4
 """What is there is told within a square that reaches so far from the centre."""
 MOST = 20.0

@@ -15,7 +15,7 @@ from memtrack.refinement import Refiner, refined
 from memtrack.settings import DetectionSettings
 
 DEVIATION = "deviation"
-"""Channel of the features that tells contrasts."""
+"""Channel of the features that tells contrasts, and echoes from what is there."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,10 @@ import java.util.stream.IntStream;
 import org.junit.jupiter.api.Test;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
+import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.Level;
 
+/** Places that are unsure, smoothed along one track and by the tracker. */
 class SmoothingTest {
 
     @Test
@@ -91,6 +93,46 @@ class SmoothingTest {
         }
         assertThat(Math.sqrt(after / before)).isLessThan(0.75);
         assertThat(way / truth).isBetween(0.97, 1.05);
+    }
+
+    @Test
+    void unsurePlacesAreSmoothedInTheSceneUnlessTheUserWantsThemAsFound() {
+        List<FrameDetections> frames = new ArrayList<>();
+        Random random = new Random(3);
+        for (int frame = 0; frame < 60; frame++) {
+            // The stage shakes by pixels, the swimmer goes straight on.
+            double drift = 5 * random.nextGaussian();
+            double error = 0.3 * random.nextGaussian();
+            Box box = Box.around(40 + frame + drift + error, 50, 30, 30);
+            frames.add(new FrameDetections(
+                    frame, List.of(new Detection(box, 0.9, Level.HIGH, Double.NaN, 1)), drift, 0, List.of()));
+        }
+        SortSettings settings = SortSettings.COLLAGEN.with(TrackFilter.ofLength(1));
+        SortSettings asFound = new SortSettings(
+                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
+
+        Track smooth = new SortTracker(settings).track(frames).get(0);
+        Track found = new SortTracker(asFound).track(frames).get(0);
+
+        assertThat(smooth.points()).hasSize(60);
+        assertThat(errors(smooth, frames)).isLessThan(0.6 * errors(found, frames));
+        for (int frame = 0; frame < 60; frame++) {
+            Detection detection = frames.get(frame).detections().get(0);
+            assertThat(smooth.points().get(frame).detection()).isSameAs(detection);
+            assertThat(found.points().get(frame).box()).isEqualTo(detection.box());
+        }
+    }
+
+    /** Root mean square distance of the swimmer above from where it is. */
+    private static double errors(Track track, List<FrameDetections> frames) {
+        return Math.sqrt(track.points().stream()
+                .mapToDouble(point -> point.box().centreX()
+                        - 40
+                        - point.frame()
+                        - frames.get(point.frame()).driftX())
+                .map(error -> error * error)
+                .average()
+                .orElseThrow());
     }
 
     private static TrackPoint observed(int frame, double x, double y, double error) {

@@ -9,7 +9,6 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.IdentityHashMap;
 import java.util.List;
-import java.util.Random;
 import java.util.Set;
 import java.util.concurrent.CancellationException;
 import java.util.concurrent.atomic.AtomicInteger;
@@ -18,13 +17,13 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.EnumSource;
-import org.junit.jupiter.params.provider.ValueSource;
 import org.memtrack.detection.Box;
 import org.memtrack.detection.Detection;
 import org.memtrack.detection.FrameDetections;
 import org.memtrack.detection.Level;
 import org.memtrack.testing.RandomWorld;
 
+/** What the tracker makes of detections: tracks, gaps, and what it leaves out; who is who is told in {@link WhoIsWhoTest}. */
 class SortTrackerTest {
     private static final int MAXIMUM_AGE = 5;
 
@@ -216,6 +215,18 @@ class SortTrackerTest {
         assertThat(fractions).containsExactly(0.125, 0.25);
     }
 
+    @Test
+    void cancellingStopsTheSmoothing() {
+        SortTracker tracker = new SortTracker(SortSettings.DEFAULTS.with(TrackFilter.ofLength(1)));
+        List<FrameDetections> frames = swimmerSeenIn(0, 1, 2, 3);
+        AtomicInteger asked = new AtomicInteger();
+        tracker.trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() < 0);
+        int last = asked.getAndSet(0);
+        assertThatThrownBy(() -> tracker.trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() == last))
+                .isInstanceOf(CancellationException.class)
+                .hasMessage("Tracking was cancelled");
+    }
+
     @ParameterizedTest
     @EnumSource(Association.class)
     void inRandomWorldsNoDetectionIsInTwoTracksAndEveryGapIsFilled(Association association) {
@@ -287,98 +298,5 @@ class SortTrackerTest {
                 }
             }
         }
-    }
-
-    @Test
-    void unsurePlacesAreSmoothedInTheSceneUnlessTheUserWantsThemAsFound() {
-        List<FrameDetections> frames = new ArrayList<>();
-        Random random = new Random(3);
-        for (int frame = 0; frame < 60; frame++) {
-            // The stage shakes by pixels, the swimmer goes straight on.
-            double drift = 5 * random.nextGaussian();
-            double error = 0.3 * random.nextGaussian();
-            Box box = Box.around(40 + frame + drift + error, 50, 30, 30);
-            frames.add(new FrameDetections(
-                    frame, List.of(new Detection(box, 0.9, Level.HIGH, Double.NaN, 1)), drift, 0, List.of()));
-        }
-        SortSettings settings = SortSettings.COLLAGEN.with(TrackFilter.ofLength(1));
-        SortSettings asFound = new SortSettings(
-                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
-
-        Track smooth = new SortTracker(settings).track(frames).get(0);
-        Track found = new SortTracker(asFound).track(frames).get(0);
-
-        assertThat(smooth.points()).hasSize(60);
-        assertThat(errors(smooth, frames)).isLessThan(0.6 * errors(found, frames));
-        for (int frame = 0; frame < 60; frame++) {
-            Detection detection = frames.get(frame).detections().get(0);
-            assertThat(smooth.points().get(frame).detection()).isSameAs(detection);
-            assertThat(found.points().get(frame).box()).isEqualTo(detection.box());
-        }
-        AtomicInteger asked = new AtomicInteger();
-        new SortTracker(settings).trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() < 0);
-        int last = asked.getAndSet(0);
-        assertThatThrownBy(() -> new SortTracker(settings)
-                        .trackAndFilter(frames, fraction -> {}, () -> asked.incrementAndGet() == last))
-                .isInstanceOf(CancellationException.class)
-                .hasMessage("Tracking was cancelled");
-    }
-
-    /** Root mean square distance of the swimmer above from where it is. */
-    private static double errors(Track track, List<FrameDetections> frames) {
-        return Math.sqrt(track.points().stream()
-                .mapToDouble(point -> point.box().centreX()
-                        - 40
-                        - point.frame()
-                        - frames.get(point.frame()).driftX())
-                .map(error -> error * error)
-                .average()
-                .orElseThrow());
-    }
-
-    @Test
-    void associationByMotionSwitchesBetweenSwimmersLessThanTheOneByOverlap() {
-        RandomWorld.Settings crowd = TrackingBenchmark.WORLDS.get("crowd");
-        SortSettings byMotion = new SortSettings(
-                Association.MOTION, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
-        SortSettings byOverlap = new SortSettings(
-                Association.OVERLAP, 0.05, 25, 0, Interpolation.FILL_GAPS, false, TrackFilter.ofLength(1));
-        int motion = 0;
-        int overlap = 0;
-        for (int seed = 100; seed < 102; seed++) {
-            RandomWorld world = RandomWorld.of(crowd, seed);
-            motion += switches(world, byMotion);
-            overlap += switches(world, byOverlap);
-        }
-
-        assertThat(motion).isLessThan((int) (0.85 * overlap));
-    }
-
-    /** In these two worlds swimmers that meet are confused when they are joined frame by frame. */
-    @ParameterizedTest
-    @ValueSource(longs = {8, 153})
-    void whoMeetsIsToldByBothSidesOfTheMeeting(long seed) {
-        RandomWorld world =
-                RandomWorld.of(new RandomWorld.Settings(200, 150, 80, 6, 2, 0.02, 30, 0.5, 0.05, 0, 0.1, 0), seed);
-
-        assertThat(switches(world, SortSettings.WATER.with(TrackFilter.ofLength(1))))
-                .isZero();
-    }
-
-    @Test
-    void swimmersFasterThanUsualAreJoinedOnceTheirSpeedIsKnown() {
-        RandomWorld.Settings fewFrames = TrackingBenchmark.WORLDS.get("few frames");
-        for (int seed = 0; seed < 3; seed++) {
-            RandomWorld world = RandomWorld.of(fewFrames, seed);
-
-            List<Track> tracks = track(world.frames());
-
-            assertThat(AssociationScore.of(world, tracks).association()).isGreaterThan(0.45);
-        }
-    }
-
-    private static int switches(RandomWorld world, SortSettings settings) {
-        return AssociationScore.of(world, new SortTracker(settings).track(world.frames()))
-                .switches();
     }
 }
